@@ -1,0 +1,8 @@
+//! tetflip: constrained Delaunay tetrahedralizations (CDTs) of piecewise linear complexes (PLCs), after
+//! Si & Shewchuk, *Incrementally Constructing and Updating Constrained Delaunay Tetrahedralizations with Finite
+//! Precision Coordinates*.
+
+pub mod mesh;
+pub mod number;
+pub mod plc;
+pub mod predicate;

@@ -1,0 +1,9 @@
+//! The tetrahedral mesh: topology alone. Nothing here knows a coordinate or a number type.
+
+mod export;
+mod ids;
+mod topology;
+
+pub use export::{ExportedEdge, ExportedFace, ExportedMesh};
+pub use ids::{Corner, TetId, VertexId};
+pub use topology::{FACET, NEXT, TetMesh, TopologyError};

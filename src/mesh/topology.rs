@@ -1,0 +1,393 @@
+//! The tetrahedra and their adjacency (after Boissonnat, Devillers, Pion, Teillaud & Yvinec 2002; corners after
+//! Attene's layout).
+//!
+//! Conventions of the whole crate: positive means det[b−a, c−a, d−a] > 0; every stored finite tetrahedron is positive;
+//! facet `i` of a tetrahedron is opposite its vertex `i`.
+//!
+//! Invariants: `twin(twin(c)) == c`; `c` and `twin(c)` see the same three vertices, in opposite order; a hull facet is
+//! closed by a ghost tetrahedron with one infinite vertex, so that every facet has exactly two tetrahedra.
+//!
+//! Memory: 32 bytes per tetrahedron.
+
+use super::{Corner, TetId, VertexId};
+use rustc_hash::FxHashMap;
+
+/// `FACET[i]` completes `i` to an even permutation of 0123, so `[i, FACET[i]..]` keeps orientation.
+pub const FACET: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [3, 0, 1], [1, 0, 2]];
+
+/// `NEXT[i][j] = k` where `ijkl` is even: leave through facet `k` to turn around the edge i→j.
+pub const NEXT: [[usize; 4]; 4] = [[4, 2, 3, 1], [3, 4, 0, 2], [1, 3, 4, 0], [2, 0, 1, 4]];
+
+/// A tetrahedralization of a closed 3-sphere: finite tetrahedra and ghosts. See the module's invariants.
+#[derive(Clone, Debug, Default)]
+pub struct TetMesh {
+    tets: Vec<[VertexId; 4]>,
+    twins: Vec<[Corner; 4]>,
+    free: Vec<TetId>,
+}
+
+/// A removed tetrahedron, until its id is used again.
+const DEAD: [VertexId; 4] = [VertexId::INFINITE; 4];
+
+/// A violated invariant of [`TetMesh`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum TopologyError {
+    /// A facet is not glued to anything.
+    #[error("facet {0:?} is not glued")]
+    Open(Corner),
+    /// twin(twin(c)) is not c.
+    #[error("facet {0:?} is not the twin of its twin")]
+    OneSided(Corner),
+    /// A corner and its twin see different vertices, or the same in the same order.
+    #[error("facet {0:?} and its twin see different vertices")]
+    Mismatch(Corner),
+    /// A tetrahedron uses a vertex twice.
+    #[error("tetrahedron {0:?} uses a vertex twice")]
+    Repeated(TetId),
+}
+
+impl TetMesh {
+    /// An empty mesh.
+    pub fn new() -> TetMesh {
+        TetMesh::default()
+    }
+
+    /// Room for `n` tetrahedra without further allocation.
+    pub fn reserve(&mut self, n: usize) {
+        self.tets.reserve(n);
+        self.twins.reserve(n);
+    }
+
+    /// Removes everything, keeping the memory.
+    pub fn clear(&mut self) {
+        self.tets.clear();
+        self.twins.clear();
+        self.free.clear();
+    }
+
+    /// One more than the largest id in use: the length of a side table indexed by [`TetId`].
+    #[inline]
+    pub fn capacity(&self) -> usize {
+        self.tets.len()
+    }
+
+    /// The number of tetrahedra, ghosts included.
+    pub fn len(&self) -> usize {
+        self.tets.len() - self.free.len()
+    }
+
+    /// Whether there is no tetrahedron.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// All tetrahedra, ghosts included, in order of id.
+    pub fn all(&self) -> impl Iterator<Item = TetId> + '_ {
+        (0..self.tets.len())
+            .map(TetId::new)
+            .filter(|&t| self.is_alive(t))
+    }
+
+    /// The finite tetrahedra, in order of id.
+    pub fn finite(&self) -> impl Iterator<Item = TetId> + '_ {
+        self.all().filter(|&t| !self.is_ghost(t))
+    }
+
+    /// The four vertices.
+    #[inline]
+    pub fn vertices(&self, t: TetId) -> [VertexId; 4] {
+        self.tets[t.index()]
+    }
+
+    /// Whether `t` is in the mesh.
+    #[inline]
+    pub fn is_alive(&self, t: TetId) -> bool {
+        self.tets[t.index()] != DEAD
+    }
+
+    /// Whether `t` has the infinite vertex.
+    #[inline]
+    pub fn is_ghost(&self, t: TetId) -> bool {
+        let [a, b, c, d] = self.tets[t.index()];
+        a.is_infinite() | b.is_infinite() | c.is_infinite() | d.is_infinite()
+    }
+
+    /// The vertex at corner `c`.
+    #[inline]
+    pub fn vertex(&self, c: Corner) -> VertexId {
+        self.tets[c.tet().index()][c.slot()]
+    }
+
+    /// The three vertices of the facet opposite `c`; with the vertex at `c` in front they keep the orientation.
+    #[inline]
+    pub fn facet(&self, c: Corner) -> [VertexId; 3] {
+        let v = self.tets[c.tet().index()];
+        FACET[c.slot()].map(|i| v[i])
+    }
+
+    /// The same facet seen from the other side: the corner of the neighbour that is opposite to it.
+    #[inline]
+    pub fn twin(&self, c: Corner) -> Corner {
+        self.twins[c.tet().index()][c.slot()]
+    }
+
+    /// The neighbour across the facet opposite `c`.
+    #[inline]
+    pub fn neighbor(&self, c: Corner) -> TetId {
+        self.twin(c).tet()
+    }
+
+    /// The vertex of the neighbour across the facet opposite `c` that is not on that facet.
+    #[inline]
+    pub fn apex_across(&self, c: Corner) -> VertexId {
+        self.vertex(self.twin(c))
+    }
+
+    /// The slot of `v` in `t`, if it is a vertex of `t`.
+    #[inline]
+    pub fn slot_of(&self, t: TetId, v: VertexId) -> Option<usize> {
+        self.tets[t.index()].iter().position(|&w| w == v)
+    }
+
+    /// The corner of `t` at `v`, a vertex of `t`.
+    #[inline]
+    pub fn corner_of(&self, t: TetId, v: VertexId) -> Corner {
+        t.corner(self.slot_of(t, v).expect("v is a vertex of t"))
+    }
+
+    /// Whether `t` has all of the given vertices.
+    #[inline]
+    pub fn has_vertices(&self, t: TetId, vertices: &[VertexId]) -> bool {
+        vertices.iter().all(|&v| self.slot_of(t, v).is_some())
+    }
+
+    /// The tetrahedra around the directed edge a→b, starting with `t`, each left through the facet that `NEXT` names.
+    pub fn around(&self, t: TetId, a: VertexId, b: VertexId) -> impl Iterator<Item = TetId> + '_ {
+        let next =
+            move |&s: &TetId| Some(self.neighbor(self.exit_around(s, a, b))).filter(|&n| n != t);
+        std::iter::successors(Some(t), next)
+    }
+
+    /// The facet of `t` through which one leaves it when turning around its edge a→b in positive sense.
+    #[inline]
+    pub fn exit_around(&self, t: TetId, a: VertexId, b: VertexId) -> Corner {
+        let i = self.slot_of(t, a).expect("a is a vertex of t");
+        let j = self.slot_of(t, b).expect("b is a vertex of t");
+        t.corner(NEXT[i][j])
+    }
+
+    /// A new tetrahedron, not glued to anything yet.
+    #[inline]
+    pub fn add(&mut self, vertices: [VertexId; 4]) -> TetId {
+        if let Some(t) = self.free.pop() {
+            self.tets[t.index()] = vertices;
+            self.twins[t.index()] = [Corner::NONE; 4];
+            return t;
+        }
+        let t = TetId::new(self.tets.len());
+        assert!(t.0 < 1 << 30, "fewer than 2^30 tetrahedra");
+        self.tets.push(vertices);
+        self.twins.push([Corner::NONE; 4]);
+        t
+    }
+
+    /// Removes `t`. The facets of its neighbours still name it, until they are glued anew.
+    #[inline]
+    pub fn remove(&mut self, t: TetId) {
+        self.tets[t.index()] = DEAD;
+        self.free.push(t);
+    }
+
+    /// Declares that `c` and `d` are the two sides of one facet.
+    #[inline]
+    pub fn glue(&mut self, c: Corner, d: Corner) {
+        self.twins[c.tet().index()][c.slot()] = d;
+        self.twins[d.tet().index()][d.slot()] = c;
+    }
+
+    /// Lets `c` name `d` without the converse: a scratch pointer during an insertion.
+    #[inline]
+    pub(crate) fn set_twin(&mut self, c: Corner, d: Corner) {
+        self.twins[c.tet().index()][c.slot()] = d;
+    }
+
+    /// Replaces the tetrahedra `old` by `new`, which fill the same space: every facet of the new ones is a facet of
+    /// another new one or of the boundary of the old ones. Returns the new ids, in order.
+    ///
+    /// All bistellar flips and the grafting of cavities are this one operation. Time linear in the sizes.
+    pub fn replace(&mut self, old: &[TetId], new: &[[VertexId; 4]]) -> Vec<TetId> {
+        let mut open = OpenFacets::with_capacity(4 * old.len().max(new.len()));
+        for &t in old {
+            for slot in 0..4 {
+                let outside = self.twin(t.corner(slot));
+                if !old.contains_fast(outside.tet()) {
+                    open.insert(self.facet(t.corner(slot)), outside);
+                }
+            }
+        }
+        for &t in old {
+            self.remove(t);
+        }
+        let ids: Vec<TetId> = new.iter().map(|&v| self.add(v)).collect();
+        for &t in &ids {
+            for slot in 0..4 {
+                let c = t.corner(slot);
+                let facet = self.facet(c);
+                match open.take(facet) {
+                    Some(d) => self.glue(c, d),
+                    None => open.insert(facet, c),
+                }
+            }
+        }
+        assert!(
+            open.is_empty(),
+            "new tetrahedra fill the space of the old ones"
+        );
+        ids
+    }
+
+    /// Checks the module's invariants. Linear time.
+    ///
+    /// # Errors
+    /// The first violation, in order of id.
+    pub fn check(&self) -> Result<(), TopologyError> {
+        for t in self.all() {
+            let mut v = self.vertices(t);
+            v.sort_unstable();
+            if v.windows(2).any(|w| w[0] == w[1]) {
+                return Err(TopologyError::Repeated(t));
+            }
+            for slot in 0..4 {
+                let c = t.corner(slot);
+                let d = self.twin(c);
+                if d == Corner::NONE || !self.is_alive(d.tet()) {
+                    return Err(TopologyError::Open(c));
+                }
+                if self.twin(d) != c {
+                    return Err(TopologyError::OneSided(c));
+                }
+                let [p, q, r] = self.facet(c);
+                let seen = self.facet(d);
+                if ![[q, p, r], [p, r, q], [r, q, p]].contains(&seen) {
+                    return Err(TopologyError::Mismatch(c));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Membership in a short list by scan, in a long one that is sorted by binary search.
+trait ContainsFast {
+    fn contains_fast(&self, t: TetId) -> bool;
+}
+
+impl ContainsFast for [TetId] {
+    fn contains_fast(&self, t: TetId) -> bool {
+        if self.len() <= 8 {
+            self.contains(&t)
+        } else {
+            debug_assert!(self.is_sorted());
+            self.binary_search(&t).is_ok()
+        }
+    }
+}
+
+/// Facets seen once so far, by their three vertices: a short list, or a hash table.
+enum OpenFacets {
+    Few(Vec<([VertexId; 3], Corner)>),
+    Many(FxHashMap<[VertexId; 3], Corner>),
+}
+
+impl OpenFacets {
+    fn with_capacity(n: usize) -> OpenFacets {
+        if n <= 32 {
+            OpenFacets::Few(Vec::with_capacity(n))
+        } else {
+            OpenFacets::Many(FxHashMap::with_capacity_and_hasher(n, Default::default()))
+        }
+    }
+
+    fn insert(&mut self, mut facet: [VertexId; 3], c: Corner) {
+        facet.sort_unstable();
+        match self {
+            OpenFacets::Few(list) => list.push((facet, c)),
+            OpenFacets::Many(map) => {
+                map.insert(facet, c);
+            }
+        }
+    }
+
+    fn take(&mut self, mut facet: [VertexId; 3]) -> Option<Corner> {
+        facet.sort_unstable();
+        match self {
+            OpenFacets::Few(list) => {
+                let i = list.iter().position(|(f, _)| *f == facet)?;
+                Some(list.swap_remove(i).1)
+            }
+            OpenFacets::Many(map) => map.remove(&facet),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        match self {
+            OpenFacets::Few(list) => list.is_empty(),
+            OpenFacets::Many(map) => map.is_empty(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parity(p: [usize; 4]) -> bool {
+        let inversions = (0..4).flat_map(|i| (i + 1..4).map(move |j| (i, j)));
+        inversions.filter(|&(i, j)| p[i] > p[j]).count() % 2 == 0
+    }
+
+    #[test]
+    fn tables_are_even_permutations() {
+        for i in 0..4 {
+            let [j, k, l] = FACET[i];
+            assert!(parity([i, j, k, l]));
+            for j in (0..4).filter(|&j| j != i) {
+                let k = NEXT[i][j];
+                assert!(parity([i, j, k, 6 - i - j - k]));
+            }
+        }
+    }
+
+    fn ids<const N: usize>(v: [u32; N]) -> [VertexId; N] {
+        v.map(VertexId)
+    }
+
+    /// The boundary of a 4-simplex: five tetrahedra, one of them taken as the ghost.
+    fn sphere() -> TetMesh {
+        let mut mesh = TetMesh::new();
+        let seed = mesh.add(ids([0, 1, 2, 3]));
+        let mirror = mesh.add(ids([1, 0, 2, 3]));
+        for slot in 0..4 {
+            let c = seed.corner(slot);
+            let d = mesh.corner_of(mirror, mesh.vertex(c));
+            mesh.glue(c, d);
+        }
+        let with_infinity = |slot: usize| {
+            let mut v = mesh.vertices(mirror);
+            v[slot] = VertexId::INFINITE;
+            v
+        };
+        let ghosts = [0, 1, 2, 3].map(with_infinity);
+        mesh.replace(&[mirror], &ghosts);
+        mesh
+    }
+
+    #[test]
+    fn replace_keeps_the_invariants() {
+        let mesh = sphere();
+        assert_eq!(mesh.check(), Ok(()));
+        assert_eq!(mesh.len(), 5);
+        let t = mesh.finite().next().expect("one finite tetrahedron");
+        assert_eq!(mesh.around(t, VertexId(0), VertexId(1)).count(), 3);
+    }
+}

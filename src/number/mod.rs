@@ -1,0 +1,56 @@
+//! Number types: a ring that knows its sign, or admits that it does not.
+//!
+//! Every determinant of the crate is written once ([`crate::predicate::formula`]) and evaluated in numbers of
+//! increasing cost until one of them is sure of the sign:
+//!
+//! | type | what it is | its sign |
+//! |---|---|---|
+//! | `f32`, `f64` | naive rounding, for the experiments | always answers, and may lie |
+//! | [`Approx`] | `f64` with a running error bound, the filter | true or unknown |
+//! | [`Dyadic`] | m·2^e, the ring that doubles generate | exact |
+//! | `num_rational::BigRational` | rationals, for comparison and tests | exact |
+//! | `rug::Rational` | GMP rationals (feature `rug`) | exact |
+//!
+//! Source of the design: Shewchuk 1997 (adaptive predicates), Burnikel, Funke & Seel 2001 (running error bounds).
+
+mod approx;
+mod dyadic;
+mod float;
+mod rational;
+mod sign;
+mod vector;
+
+pub use approx::Approx;
+pub use dyadic::Dyadic;
+pub use sign::Sign;
+pub use vector::Vec3;
+
+use std::fmt::Debug;
+use std::ops::{Add, Mul, Sub};
+
+/// A number in which a polynomial with integer coefficients can be evaluated.
+pub trait Number:
+    Clone
+    + Debug
+    + for<'a> Add<&'a Self, Output = Self>
+    + for<'a> Sub<&'a Self, Output = Self>
+    + for<'a> Mul<&'a Self, Output = Self>
+{
+    /// The number nearest to the finite double `x`: `x` itself for every type but `f32`.
+    fn from_f64(x: f64) -> Self;
+
+    /// The sign, or `None` where rounding has lost it. Never `None` for an [`Exact`] type; the naive floats
+    /// answer for everything but NaN, rightly or wrongly.
+    fn sign(&self) -> Option<Sign>;
+
+    /// The nearest double or a close one (for reports and pictures; decides nothing).
+    fn to_f64(&self) -> f64;
+}
+
+/// A number type whose arithmetic on doubles is exact, so that [`Number::sign`] is never `None`.
+pub trait Exact: Number {
+    /// The sign, always true.
+    fn exact_sign(&self) -> Sign {
+        self.sign().expect("an exact number knows its sign")
+    }
+}

@@ -1,0 +1,51 @@
+//! The input as files hold it: vertices, facets made of polygons, floating segments, hole points, region points.
+
+use crate::mesh::VertexId;
+
+/// A piecewise linear complex as it was given, before any check.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plc {
+    /// The index of the first vertex in the file, 0 or 1; ids in this struct always count from 0.
+    pub first_index: u32,
+    /// Finite coordinates.
+    pub vertices: Vec<[f64; 3]>,
+    /// The facets.
+    pub facets: Vec<Facet>,
+    /// Segments that belong to no facet (`.edge` files, two-vertex facets).
+    pub segments: Vec<Segment>,
+    /// A point in every part of the domain that is to be removed.
+    pub holes: Vec<[f64; 3]>,
+    /// Points that name regions.
+    pub regions: Vec<Region>,
+}
+
+/// A planar facet: the area bounded by its polygons, without the parts that hold a hole point.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facet {
+    /// Closed polygons with three or more vertices; floating segments with two; floating vertices with one.
+    pub polygons: Vec<Vec<VertexId>>,
+    /// A point in every part of the facet that is to be left open.
+    pub holes: Vec<[f64; 3]>,
+    /// Boundary marker, 0 if none.
+    pub marker: i32,
+}
+
+/// A segment given for itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Segment {
+    /// The two ends.
+    pub ends: [VertexId; 2],
+    /// Boundary marker, 0 if none.
+    pub marker: i32,
+}
+
+/// A point that gives its attribute to the region it lies in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// A point inside the region, on no facet.
+    pub point: [f64; 3],
+    /// The attribute of the region's tetrahedra.
+    pub attribute: f64,
+    /// A bound on tetrahedron volumes for mesh refinement, which this crate does not do; kept, not used.
+    pub max_volume: Option<f64>,
+}

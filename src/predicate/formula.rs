@@ -1,0 +1,114 @@
+//! Every determinant of the crate, once, over any [`Number`].
+//!
+//! # Signs
+//! orient3d(a,b,c,d) = det[b−a, c−a, d−a] is positive for a positive tetrahedron. (Shewchuk's `orient3d`, and the
+//! `robust` crate's, is its negative.)
+//!
+//! # The lifted determinant
+//! Let each of five points p_i have a height h_i (for insphere: h_i = |p_i|²; a weight lowers the height:
+//! h_i = |p_i|² − w_i). With e = p_4 as the origin, the 4×4 determinant with rows (p_i − e, h_i − h_e), i = 0…3, expanded
+//! along its last column, is
+//!
+//! > −h_a·O(e,b,c,d) + h_b·O(e,a,c,d) − h_c·O(e,a,b,d) + h_d·O(e,a,b,c), heights relative to h_e,
+//!
+//! where O = orient3d. We take its negative, so that over a positive abcd it is positive iff e lies *below* the lifted
+//! hyperplane of abcd: for insphere, inside the circumsphere. Its derivative by the weight w_i is therefore
+//!
+//! > c_a = −O(e,b,c,d), c_b = +O(e,a,c,d), c_c = −O(e,a,b,d), c_d = +O(e,a,b,c), c_e = O(a,b,c,d),
+//!
+//! with Σ c_i = 0 and Σ c_i p_i = 0: the affine dependence of the five points, their *circuit*. So
+//!
+//! > orient4d = −Σ c_i·(h_i − h_e), insphere = −Σ c_i·|p_i − e|².
+//!
+//! c_i > 0 says that p_i is on the side of e in the Radon partition of the circuit. [`circuit`] computes all five from
+//! six 2×2 minors.
+
+use crate::number::{Number, Vec3};
+
+/// det[b−a, c−a, d−a], six times the signed volume of abcd.
+#[inline]
+pub fn orient3d<N: Number>([a, b, c, d]: [&Vec3<N>; 4]) -> N {
+    b.sub(a).dot(&c.sub(a).cross(&d.sub(a)))
+}
+
+/// The five coefficients c_i of the circuit of a, b, c, d, e (see the module's text), and the differences to e.
+#[inline]
+pub fn circuit<N: Number>([a, b, c, d, e]: [&Vec3<N>; 5]) -> ([N; 5], [Vec3<N>; 4]) {
+    let q = [a.sub(e), b.sub(e), c.sub(e), d.sub(e)];
+    // minor(i,j) = x_i y_j − x_j y_i
+    let minor = |i: usize, j: usize| -> N {
+        let ([xi, yi, _], [xj, yj, _]) = (&q[i].0, &q[j].0);
+        xi.clone() * yj - &(xj.clone() * yi)
+    };
+    let (ab, ac, ad) = (minor(0, 1), minor(0, 2), minor(0, 3));
+    let (bc, bd, cd) = (minor(1, 2), minor(1, 3), minor(2, 3));
+    let [az, bz, cz, dz] = [0, 1, 2, 3].map(|i: usize| &q[i].0[2]);
+    // det3(i,j,k) = O(e,i,j,k) = z_i·minor(j,k) − z_j·minor(i,k) + z_k·minor(i,j)
+    let bcd = bz.clone() * &cd - &(cz.clone() * &bd) + &(dz.clone() * &bc);
+    let acd = az.clone() * &cd - &(cz.clone() * &ad) + &(dz.clone() * &ac);
+    let abd = az.clone() * &bd - &(bz.clone() * &ad) + &(dz.clone() * &ab);
+    let abc = az.clone() * &bc - &(bz.clone() * &ac) + &(cz.clone() * &ab);
+    // c_e = −(c_a + c_b + c_c + c_d) because Σ c_i = 0.
+    let ce = bcd.clone() - &acd + &abd - &abc;
+    let zero = N::from_f64(0.0);
+    ([zero.clone() - &bcd, acd, zero - &abd, abc, ce], q)
+}
+
+/// The lifted determinant with arbitrary heights of a, b, c, d relative to that of e.
+#[inline]
+pub fn orient4d<N: Number>(circuit: &[N; 5], heights: [&N; 4]) -> N {
+    let [ca, cb, cc, cd, _] = circuit;
+    let [ha, hb, hc, hd] = heights;
+    let outer = ca.clone() * ha + &(cc.clone() * hc);
+    let inner = cb.clone() * hb + &(cd.clone() * hd);
+    N::from_f64(0.0) - &(outer + &inner)
+}
+
+/// Positive iff e is inside the circumsphere of a positive abcd: [`orient4d`] with the parabolic heights.
+#[inline]
+pub fn insphere<N: Number>(points: [&Vec3<N>; 5]) -> N {
+    let (c, q) = circuit(points);
+    let lift = [0, 1, 2, 3].map(|i: usize| q[i].dot(&q[i]));
+    orient4d(&c, [&lift[0], &lift[1], &lift[2], &lift[3]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::{Dyadic, Exact, Sign};
+
+    fn points<const N: usize>(p: [[i32; 3]; N]) -> [Vec3<Dyadic>; N] {
+        p.map(|q| Vec3::from_f64(q.map(f64::from)))
+    }
+
+    #[test]
+    fn orientation_is_the_crates() {
+        let p = points([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+        assert_eq!(orient3d(p.each_ref()).exact_sign(), Sign::Positive);
+    }
+
+    #[test]
+    fn insphere_is_positive_inside() {
+        let at = |z| {
+            let p = points([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [1, 1, z]]);
+            insphere(p.each_ref()).exact_sign()
+        };
+        assert_eq!(at(1), Sign::Positive);
+        assert_eq!(at(9), Sign::Negative);
+        let p = points([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [4, 4, 4]]);
+        assert_eq!(insphere(p.each_ref()).exact_sign(), Sign::Zero);
+    }
+
+    #[test]
+    fn circuit_is_made_of_orientations() {
+        let p = points([[3, 1, 4], [1, 5, 9], [2, 6, 5], [3, 5, 8], [9, 7, 9]]);
+        let [a, b, c, d, e] = p.each_ref();
+        let (circuit, _) = circuit([a, b, c, d, e]);
+        let zero = Dyadic::ZERO;
+        assert_eq!(circuit[0], zero.clone() - &orient3d([e, b, c, d]));
+        assert_eq!(circuit[1], orient3d([e, a, c, d]));
+        assert_eq!(circuit[2], zero - &orient3d([e, a, b, d]));
+        assert_eq!(circuit[3], orient3d([e, a, b, c]));
+        assert_eq!(circuit[4], orient3d([a, b, c, d]));
+    }
+}

@@ -1,0 +1,3 @@
+//! Geometric predicates: one formula per determinant, filtered and exact evaluation, symbolic perturbation.
+
+pub mod formula;
