@@ -2,7 +2,10 @@
 //! Si & Shewchuk, *Incrementally Constructing and Updating Constrained Delaunay Tetrahedralizations with Finite
 //! Precision Coordinates*.
 
+pub mod delaunay;
+pub mod error;
 pub mod mesh;
 pub mod number;
 pub mod plc;
 pub mod predicate;
+pub mod recover;

@@ -2,8 +2,10 @@
 
 mod export;
 mod ids;
+mod incidence;
 mod topology;
 
 pub use export::{ExportedEdge, ExportedFace, ExportedMesh};
 pub use ids::{Corner, TetId, VertexId};
+pub use incidence::Incidence;
 pub use topology::{FACET, NEXT, TetMesh, TopologyError};

@@ -246,6 +246,29 @@ impl TetMesh {
         ids
     }
 
+    /// Whether [`TetMesh::replace`] would find that `new` fills the space of `old`: the facets that only one of the new
+    /// tetrahedra has are those of the boundary of the old ones.
+    pub fn can_replace(&self, old: &[TetId], new: &[[VertexId; 4]]) -> bool {
+        let mut open: FxHashMap<[VertexId; 3], i32> = FxHashMap::default();
+        let sorted = |mut facet: [VertexId; 3]| {
+            facet.sort_unstable();
+            facet
+        };
+        for &t in old {
+            for c in (0..4).map(|slot| t.corner(slot)) {
+                if !old.contains_fast(self.neighbor(c)) {
+                    *open.entry(sorted(self.facet(c))).or_insert(0) += 1;
+                }
+            }
+        }
+        for v in new {
+            for others in FACET {
+                *open.entry(sorted(others.map(|i| v[i]))).or_insert(0) += 1;
+            }
+        }
+        open.values().all(|&n| n == 2)
+    }
+
     /// Checks the module's invariants. Linear time.
     ///
     /// # Errors

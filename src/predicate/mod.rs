@@ -1,3 +1,13 @@
 //! Geometric predicates: one formula per determinant, filtered and exact evaluation, symbolic perturbation.
+//!
+//! The algorithms ask a [`PointStore`] for signs and never see a coordinate, so that a store of exact dyadic points can
+//! take the place of [`DoublePoints`].
 
+mod double_points;
 pub mod formula;
+mod perturbation;
+mod store;
+
+pub use double_points::DoublePoints;
+pub use perturbation::perturbed_sign;
+pub use store::PointStore;

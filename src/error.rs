@@ -1,0 +1,132 @@
+//! The ways in which a run can end without a mesh. Bad input and an algorithm that gave up are different things, and
+//! both name the vertices and facets in question.
+
+use crate::delaunay::DelaunayError;
+use crate::mesh::VertexId;
+
+/// Why there is no tetrahedralization.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum Failure {
+    /// The vertices do not span space.
+    #[error(transparent)]
+    Delaunay(#[from] DelaunayError),
+    /// The input is no PLC: parts of it intersect.
+    #[error("invalid PLC: {0}")]
+    Invalid(#[from] InvalidPlc),
+    /// The algorithm gave up on what may be a valid PLC.
+    #[error("gave up: {0}")]
+    GaveUp(#[from] GaveUp),
+}
+
+/// Intersections that recovery runs into. Vertex ids count from 0; facets are indices into [`crate::plc::Plc::facets`].
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum InvalidPlc {
+    /// A vertex in the interior of a segment.
+    #[error("vertex {vertex} lies in the interior of segment {}–{}", segment[0], segment[1])]
+    VertexOnSegment {
+        /// The ends of the segment.
+        segment: [VertexId; 2],
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// Two segments that cross or overlap.
+    #[error("segments {}–{} and {}–{} intersect", segments[0][0], segments[0][1], segments[1][0], segments[1][1])]
+    SegmentsMeet {
+        /// The ends of both.
+        segments: [[VertexId; 2]; 2],
+    },
+    /// A vertex in the interior of a polygon that does not have it.
+    #[error(
+        "vertex {vertex} lies in the interior of the polygon made of facets {facets:?}, which does not contain it"
+    )]
+    VertexOnPolygon {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// A segment that passes through the interior of a polygon.
+    #[error("segment {}–{} passes through the polygon made of facets {facets:?}", segment[0], segment[1])]
+    SegmentThroughPolygon {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// The ends of the segment.
+        segment: [VertexId; 2],
+    },
+    /// Two polygons that intersect.
+    #[error("the polygons made of facets {first:?} and of facets {second:?} intersect")]
+    PolygonsIntersect {
+        /// The facets of the one.
+        first: Vec<usize>,
+        /// The facets of the other.
+        second: Vec<usize>,
+    },
+}
+
+/// Outcomes that are the algorithm's, not (or not provably) the input's.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum GaveUp {
+    /// A segment cannot be divided further in the store's coordinates. Usually facets intersect near it.
+    #[error("segment {}–{} cannot be divided any further; facets probably intersect near it", segment[0], segment[1])]
+    SegmentTooShort {
+        /// The ends of the segment.
+        segment: [VertexId; 2],
+    },
+    /// A polygon that is flat only to rounding has no CDT that the algorithm can find without further Steiner points.
+    #[error("the polygon made of facets {facets:?} is not exactly flat: {reason}")]
+    NotFlat {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// What could not be done.
+        reason: NotFlatReason,
+    },
+    /// Float flips ended without the polygon: some crossing tetrahedra are left, and no flip on the queue can be done.
+    #[error(
+        "flips with rounded times got stuck on the polygon made of facets {facets:?}, {crossing} crossing tetrahedra left"
+    )]
+    Stuck {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// The crossing tetrahedra that are left.
+        crossing: usize,
+    },
+    /// Flips ended with a face in the region that is not locally Delaunay.
+    #[error(
+        "flips on the polygon made of facets {facets:?} left {faces} faces that are not locally Delaunay"
+    )]
+    NotDelaunay {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// The faces.
+        faces: usize,
+    },
+    /// An event came off the exact flip queue that cannot be performed. This cannot happen for a flat polygon in an
+    /// edge-protected PLC: the PLC is not valid near the polygon, or there is a bug in tetflip.
+    #[error(
+        "an exactly ordered flip on the polygon made of facets {facets:?} is impossible: intersections, or a bug in tetflip"
+    )]
+    FlipOrder {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+    },
+    /// The surface encloses nothing, so that nothing is left without the convex hull.
+    #[error(
+        "the facets enclose no volume (an open surface?); keep the convex hull instead (--hull)"
+    )]
+    NothingInside,
+}
+
+/// What stopped the insertion of a polygon that is flat only to rounding.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum NotFlatReason {
+    /// The mesh does not tell on which side of an edge the polygon lies.
+    #[error("its sides are ambiguous at an edge")]
+    AmbiguousSide,
+    /// The two cavities triangulate the polygon differently, or flips leave a face that is not locally Delaunay
+    /// (paper, Fig. 4).
+    #[error("its two sides need incompatible triangulations")]
+    Incompatible,
+    /// Something crosses it that crosses only because of rounding.
+    #[error("a constraint crosses it after rounding")]
+    Crossed,
+}

@@ -1,0 +1,259 @@
+//! Points with double coordinates, and their filtered exact predicates.
+//!
+//! Each sign goes through stages until one is sure:
+//!
+//! 1. the formula over [`Approx`] (running error bound, proved there), which also certifies *zero* where all coordinates
+//!    lie on a grid 2^g and the determinant, an integer multiple of 2^(g·degree), is proved smaller than that;
+//! 2. Shewchuk's adaptive expansions from the `robust` crate, where they can neither overflow nor underflow: all
+//!    coordinates are multiples of 2^g with g ≥ −200, hence all terms and tails of the degree 5 polynomial are multiples
+//!    of 2^−1000 and representable; and all are below 2^190 in magnitude, hence the polynomial and its partial sums, a
+//!    sum of at most 2^12 products of five differences below 2^191, stay below 2^(5·191+12) < 2^1023;
+//! 3. the formula over [`Dyadic`](crate::number::Dyadic), for every finite double.
+
+use super::{PointStore, formula};
+use crate::mesh::VertexId;
+use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
+use robust::Coord3D;
+
+/// Points with finite double coordinates.
+#[derive(Clone, Debug, Default)]
+pub struct DoublePoints {
+    points: Vec<[f64; 3]>,
+    range: Range,
+}
+
+/// What is known of all coordinates: the grid that they lie on and their largest magnitude.
+#[derive(Clone, Copy, Debug)]
+struct Range {
+    /// All coordinates are multiples of 2^grid.
+    grid: i32,
+    /// All coordinates are at most this in magnitude.
+    largest: f64,
+    /// 2^(3·grid) and 2^(5·grid), or 0 where that is no normal double.
+    quantum3: f64,
+    quantum5: f64,
+    /// Whether stage 2 is safe.
+    expansions_safe: bool,
+}
+
+impl Default for Range {
+    fn default() -> Range {
+        Range {
+            grid: 1023,
+            largest: 0.0,
+            quantum3: 0.0,
+            quantum5: 0.0,
+            expansions_safe: true,
+        }
+    }
+}
+
+impl Range {
+    fn include(&mut self, x: f64) {
+        if x == 0.0 {
+            return;
+        }
+        let grid = lowest_bit(x);
+        if grid < self.grid || x.abs() > self.largest {
+            self.grid = self.grid.min(grid);
+            self.largest = self.largest.max(x.abs());
+            self.quantum3 = power_of_two(3 * self.grid);
+            self.quantum5 = power_of_two(5 * self.grid);
+            self.expansions_safe = self.grid >= -200 && self.largest < 2f64.powi(190);
+        }
+    }
+}
+
+/// The exponent of the lowest set bit of a non-zero finite double.
+fn lowest_bit(x: f64) -> i32 {
+    let bits = x.to_bits();
+    let biased = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = bits & ((1 << 52) - 1);
+    if biased == 0 {
+        -1074 + fraction.trailing_zeros() as i32
+    } else {
+        biased - 1075 + (fraction | 1 << 52).trailing_zeros() as i32
+    }
+}
+
+/// 2^k if that is a normal double, else 0.
+fn power_of_two(k: i32) -> f64 {
+    if (-1022..=1023).contains(&k) {
+        f64::from_bits(((k + 1023) as u64) << 52)
+    } else {
+        0.0
+    }
+}
+
+impl DoublePoints {
+    /// A store of the given points.
+    ///
+    /// # Panics
+    /// If a coordinate is not finite: [`crate::plc::Complex::new`] refuses such input.
+    pub fn new(points: Vec<[f64; 3]>) -> DoublePoints {
+        let mut range = Range::default();
+        for &x in points.iter().flatten() {
+            assert!(x.is_finite(), "coordinates are finite");
+            range.include(x);
+        }
+        DoublePoints { points, range }
+    }
+
+    /// All points, in order of id.
+    pub fn as_slice(&self) -> &[[f64; 3]] {
+        &self.points
+    }
+
+    /// Adds a point.
+    ///
+    /// # Panics
+    /// If a coordinate is not finite.
+    pub fn push(&mut self, p: [f64; 3]) -> VertexId {
+        for x in p {
+            assert!(x.is_finite(), "coordinates are finite");
+            self.range.include(x);
+        }
+        self.points.push(p);
+        VertexId::new(self.points.len() - 1)
+    }
+
+    #[inline]
+    fn at<N: Number>(&self, v: VertexId) -> Vec3<N> {
+        Vec3::from_f64(self.points[v.index()])
+    }
+
+    #[inline]
+    fn coord(&self, v: VertexId) -> Coord3D<f64> {
+        let [x, y, z] = self.points[v.index()];
+        Coord3D { x, y, z }
+    }
+
+    #[cold]
+    fn orient3d_exact(&self, v: [VertexId; 4]) -> Sign {
+        if self.range.expansions_safe {
+            let [a, b, c, d] = v.map(|v| self.coord(v));
+            // Shewchuk's orient3d is the negative of ours.
+            return -Sign::of_f64(robust::orient3d(a, b, c, d))
+                .expect("expansions do not overflow");
+        }
+        formula::orient3d(v.map(|v| self.at::<Dyadic>(v)).each_ref()).exact_sign()
+    }
+
+    #[cold]
+    fn insphere_exact(&self, v: [VertexId; 5]) -> Sign {
+        if self.range.expansions_safe {
+            let [a, b, c, d, e] = v.map(|v| self.coord(v));
+            // Positive inside for the opposite orientation of abcd: the negative of ours.
+            let sign = Sign::of_f64(robust::insphere(a, b, c, d, e));
+            return -sign.expect("expansions do not overflow");
+        }
+        formula::insphere(v.map(|v| self.at::<Dyadic>(v)).each_ref()).exact_sign()
+    }
+}
+
+impl PointStore for DoublePoints {
+    fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    #[inline]
+    fn rounded(&self, v: VertexId) -> [f64; 3] {
+        self.points[v.index()]
+    }
+
+    fn coordinates<N: Number>(&self, v: VertexId) -> Vec3<N> {
+        self.at(v)
+    }
+
+    /// Rounds each coordinate of p + t(q−p) to a double, so the point is off the line by about half an ulp, or not at
+    /// all where the result is representable.
+    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: f64) -> VertexId {
+        let (p, q) = (self.points[p.index()], self.points[q.index()]);
+        let t = Dyadic::from_f64(t);
+        let x = [0, 1, 2].map(|i| {
+            let (a, b) = (Dyadic::from_f64(p[i]), Dyadic::from_f64(q[i]));
+            let exact = (b - &a) * &t + &a;
+            exact.to_f64()
+        });
+        self.push(x)
+    }
+
+    #[inline]
+    fn orient3d(&self, v: [VertexId; 4]) -> Sign {
+        let p = v.map(|v| self.at::<Approx>(v));
+        let filtered = formula::orient3d(p.each_ref()).sign_on_grid(self.range.quantum3);
+        filtered.unwrap_or_else(|| self.orient3d_exact(v))
+    }
+
+    #[inline]
+    fn insphere_unperturbed(&self, v: [VertexId; 5]) -> Sign {
+        let p = v.map(|v| self.at::<Approx>(v));
+        let filtered = formula::insphere(p.each_ref()).sign_on_grid(self.range.quantum5);
+        filtered.unwrap_or_else(|| self.insphere_exact(v))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Coordinates from families that defeat floats: small lattices, jittered lattices, mixed and extreme exponents.
+    fn coordinate() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            (-3i32..4).prop_map(f64::from),
+            (-3i32..4).prop_map(|x| f64::from(x) * 0.1),
+            ((-3i32..4), (-3i32..4))
+                .prop_map(|(x, k)| f64::from(x) * (1.0 + f64::from(k) * f64::EPSILON)),
+            (-2i32..3, -300i32..300).prop_map(|(x, e)| f64::from(x) * 10f64.powi(e)),
+            (-3i32..4).prop_map(|x| f64::from(x) * 5e-324),
+            (-2i32..3).prop_map(|x| f64::from(x) * 8.9e307),
+        ]
+    }
+
+    fn family() -> impl Strategy<Value = Vec<[f64; 3]>> {
+        let free = prop::collection::vec([coordinate(), coordinate(), coordinate()], 5);
+        let lattice = prop::collection::vec([-2i32..3, -2..3, -2..3], 5);
+        let lattice = (lattice, -1070i32..1000).prop_map(|(p, e)| {
+            let scale = 2f64.powi(e);
+            p.into_iter()
+                .map(|q| q.map(|x| f64::from(x) * scale))
+                .collect()
+        });
+        prop_oneof![free, lattice]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        /// The staged predicates agree with the formula over dyadics for every finite double.
+        #[test]
+        fn stages_agree_with_dyadics(p in family()) {
+            let store = DoublePoints::new(p);
+            let v: [VertexId; 5] = std::array::from_fn(VertexId::new);
+            let [a, b, c, d, _] = v;
+            let exact = v.map(|v| store.at::<Dyadic>(v));
+            let [ea, eb, ec, ed, _] = exact.each_ref();
+            let o = formula::orient3d([ea, eb, ec, ed]).exact_sign();
+            prop_assert_eq!(store.orient3d([a, b, c, d]), o);
+            prop_assert_eq!(store.orient3d_exact([a, b, c, d]), o);
+            let s = formula::insphere(exact.each_ref()).exact_sign();
+            prop_assert_eq!(store.insphere_unperturbed(v), s);
+            prop_assert_eq!(store.insphere_exact(v), s);
+        }
+
+        /// Exchanging two of the five points changes the perturbed sign; it is zero only for five coplanar points.
+        #[test]
+        fn perturbed_insphere_is_alternating(p in family(), i in 0usize..5, j in 0usize..5) {
+            prop_assume!(i != j);
+            let store = DoublePoints::new(p);
+            let v: [VertexId; 5] = std::array::from_fn(VertexId::new);
+            let mut w = v;
+            w.swap(i, j);
+            let sign = store.insphere(v);
+            prop_assert_eq!(sign, -store.insphere(w));
+            let coplanar = (0..5).all(|i| super::super::perturbation::circuit_sign(&store, v, i).is_zero());
+            prop_assert_eq!(sign.is_zero(), coplanar);
+        }
+    }
+}

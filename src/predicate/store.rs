@@ -1,0 +1,73 @@
+//! Where the algorithms get their signs.
+
+use super::{formula, perturbed_sign};
+use crate::mesh::VertexId;
+use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
+
+/// A growing list of points that answers geometric questions exactly.
+///
+/// The default bodies evaluate the formulas over [`Dyadic`]; an implementation overrides them with filtered versions
+/// that return the same signs sooner.
+pub trait PointStore {
+    /// The number of points.
+    fn len(&self) -> usize;
+
+    /// Whether there is no point.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The coordinates rounded to doubles: for sorting, for choosing where to look first, for output. They decide
+    /// nothing.
+    fn rounded(&self, v: VertexId) -> [f64; 3];
+
+    /// The coordinates as numbers of type `N`: exact if `N` is.
+    fn coordinates<N: Number>(&self, v: VertexId) -> Vec3<N>;
+
+    /// Adds the point p + t(q−p), 0 < t < 1, as exactly as the store's coordinates allow.
+    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: f64) -> VertexId;
+
+    /// The rank of `v` in the order ε_0 ≫ ε_1 ≫ … of the weight perturbation: its identity, never its place in some
+    /// spatial order.
+    #[inline]
+    fn identity(&self, v: VertexId) -> u32 {
+        v.0
+    }
+
+    /// The sign of det[b−a, c−a, d−a].
+    fn orient3d(&self, v: [VertexId; 4]) -> Sign {
+        let p = v.map(|v| self.coordinates::<Dyadic>(v));
+        formula::orient3d(p.each_ref()).exact_sign()
+    }
+
+    /// The sign of the unperturbed insphere determinant: positive iff e is inside the circumsphere of a positive abcd.
+    fn insphere_unperturbed(&self, v: [VertexId; 5]) -> Sign {
+        let p = v.map(|v| self.coordinates::<Dyadic>(v));
+        formula::insphere(p.each_ref()).exact_sign()
+    }
+
+    /// The sign of insphere under the symbolic perturbation of the weights: never zero, unless all five points are
+    /// coplanar.
+    #[inline]
+    fn insphere(&self, v: [VertexId; 5]) -> Sign {
+        let sign = self.insphere_unperturbed(v);
+        if sign.is_zero() {
+            perturbed_sign(self, v)
+        } else {
+            sign
+        }
+    }
+
+    /// Whether two points coincide.
+    fn coincide(&self, v: VertexId, w: VertexId) -> bool {
+        let (v, w) = (self.coordinates::<Dyadic>(v), self.coordinates::<Dyadic>(w));
+        v.sub(&w).0.iter().all(|x| x.exact_sign().is_zero())
+    }
+
+    /// Whether a, b, c lie on one line.
+    fn collinear(&self, v: [VertexId; 3]) -> bool {
+        let [a, b, c] = v.map(|v| self.coordinates::<Dyadic>(v));
+        let normal = b.sub(&a).cross(&c.sub(&a));
+        normal.0.iter().all(|x| x.exact_sign().is_zero())
+    }
+}

@@ -1,0 +1,85 @@
+//! The bistellar flips of a tetrahedralization: 2-3, 3-2, 4-4 (Shewchuk 2003).
+
+use crate::mesh::{Corner, TetId, TetMesh, VertexId};
+use crate::number::Sign;
+use crate::predicate::PointStore;
+
+/// The three kinds of flip.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum FlipKind {
+    /// Two tetrahedra on a triangle become three around a new edge.
+    TwoThree,
+    /// Three tetrahedra around an edge become two on a new triangle.
+    ThreeTwo,
+    /// Four tetrahedra around an edge, two pairs of coplanar triangles, become four around the crossing edge: two flips
+    /// at the same time.
+    FourFour,
+}
+
+/// A flip that is possible: the tetrahedra to remove, and the vertices of those that take their place.
+#[derive(Clone, Debug)]
+pub struct Flip {
+    /// Which kind.
+    pub kind: FlipKind,
+    /// To be removed.
+    pub old: Vec<TetId>,
+    /// To be created, positively oriented.
+    pub new: Vec<[VertexId; 4]>,
+}
+
+/// The flip that removes the triangle xyz opposite corner `c`, between vxyz and wxzy, or `None` if there is none: the
+/// union of the tetrahedra around it is not convex.
+///
+/// The line vw passes inside the edge opposite x of the triangle iff vwyz, which has w in place of x, is positive. If it
+/// passes inside all three edges: 2-3. If it passes outside of one, that edge is reflex: 3-2, if it has three
+/// tetrahedra. If it meets one edge, v, w and the edge are coplanar: 4-4, if it has four tetrahedra.
+pub fn flip_of_triangle<P: PointStore>(points: &P, mesh: &TetMesh, c: Corner) -> Option<Flip> {
+    let (t1, t2) = (c.tet(), mesh.neighbor(c));
+    let v = mesh.vertex(c);
+    let [x, y, z] = mesh.facet(c);
+    let w = mesh.apex_across(c);
+    let around_new_edge = [[v, w, y, z], [v, x, w, z], [v, x, y, w]];
+    let inside = around_new_edge.map(|tet| points.orient3d(tet));
+    let positive: Vec<[VertexId; 4]> = (0..3)
+        .filter(|&i| inside[i].is_positive())
+        .map(|i| around_new_edge[i])
+        .collect();
+    if positive.len() == 3 {
+        return Some(Flip {
+            kind: FlipKind::TwoThree,
+            old: vec![t1, t2],
+            new: positive,
+        });
+    }
+    if positive.len() != 2 {
+        return None;
+    }
+    // The edge pq that is not passed inside, and the third vertex of the triangle.
+    let i = (0..3)
+        .find(|&i| !inside[i].is_positive())
+        .expect("two of three are positive");
+    let r = [x, y, z][i];
+    let [p, q] = [[y, z], [z, x], [x, y]][i];
+    let (behind1, behind2) = (
+        mesh.twin(mesh.corner_of(t1, r)),
+        mesh.twin(mesh.corner_of(t2, r)),
+    );
+    if inside[i] == Sign::Negative {
+        // vpqr, wpqr and the third tetrahedron vwpq.
+        return (behind1.tet() == behind2.tet()).then(|| Flip {
+            kind: FlipKind::ThreeTwo,
+            old: vec![t1, t2, behind1.tet()],
+            new: positive,
+        });
+    }
+    // vpqr, wpqr, and on the other side of the plane of v, w, p, q: vpqu and wpqu.
+    let u = mesh.vertex(behind1);
+    let (t3, t4) = (behind1.tet(), behind2.tet());
+    let four_around_edge = mesh.vertex(behind2) == u && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
+    (four_around_edge && !u.is_infinite()).then(|| Flip {
+        kind: FlipKind::FourFour,
+        old: vec![t1, t2, t3, t4],
+        // vpqr is positive, so vqpu is; w takes the place of p, then of q.
+        new: vec![positive[0], positive[1], [v, q, w, u], [v, w, p, u]],
+    })
+}

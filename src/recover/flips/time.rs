@@ -1,0 +1,272 @@
+//! When a crossing triangle must be flipped (paper, Equation (1)), in any number type.
+//!
+//! # The lifted determinant as a function of time
+//! While f is inserted the heights of the left vertices grow, h_v(τ) = |v|² + τ·d_v with d_v = orient3d(frame, v) for a
+//! left vertex and d_v = 0 for every other one, also for vertices of f that are not exactly on its plane. For the two
+//! tetrahedra vxyz and wxzy of a triangle xyz, with the circuit's coefficients c of (v, x, y, z, w)
+//! ([`formula`](crate::predicate::formula)),
+//!
+//! > S(τ) = N + τ·D,  N = insphere(v,x,y,z,w) = −Σ c_i|p_i − w|²,  D = −Σ c_i·d_i,
+//!
+//! is negative while the lifted triangle is locally convex. It is at τ = 0; if D ≤ 0 it stays so for ever (Fig. 7, line
+//! 11); else it must be flipped at τ = −N/D (line 12).
+//!
+//! # Exact order, with the perturbation
+//! Under the weights ε_v, N becomes N + Σ ε_v c_v, and D is free of ε. So with D_A, D_B > 0, A comes before B iff the
+//! first non-zero of
+//!
+//! > t_0 = N_A·D_B − N_B·D_A (degree 11),  t_v = c_{A,v}·D_B − c_{B,v}·D_A (degree 9), v in ε order,
+//!
+//! is positive, where c = 0 for a vertex that is not among the five. If all vanish then the two circuits are the same
+//! up to a factor, which happens only for two triangles of one 4-to-4 flip: they are one event.
+
+use super::event::Event;
+use crate::mesh::VertexId;
+use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
+use crate::predicate::{PointStore, formula};
+use rustc_hash::FxHashMap;
+use std::cmp::Ordering;
+
+/// A way to compute and to compare flip times.
+pub trait FlipTimes {
+    /// The time of one flip, or what is needed to compare it.
+    type Time;
+
+    /// The time at which the triangle xyz between vxyz and wxzy must be flipped; `None` if it never must, or if the
+    /// number type cannot hold the time.
+    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Self::Time>;
+
+    /// Which of two events comes first. `Equal` means: in any order.
+    fn compare(&mut self, a: &Event<Self::Time>, b: &Event<Self::Time>) -> Ordering;
+
+    /// How many comparisons were left to the perturbation, and how many times were too large for the number type.
+    fn undecided(&self) -> (u64, u64);
+
+    /// Whether the order is the true one, so that the patches of §3.3 are neither needed nor applied.
+    const EXACT: bool;
+}
+
+/// N and D of S(τ) = N + τ·D, from the five points and their rates d.
+fn numerator_and_denominator<N: Number>(p: &[Vec3<N>; 5], rates: &[N; 5]) -> (N, N) {
+    let (c, q) = formula::circuit(p.each_ref());
+    let lift = [0, 1, 2, 3].map(|i: usize| q[i].dot(&q[i]));
+    let rate = [0, 1, 2, 3].map(|i: usize| rates[i].clone() - &rates[4]);
+    (
+        formula::orient4d(&c, lift.each_ref()),
+        formula::orient4d(&c, rate.each_ref()),
+    )
+}
+
+/// The rates d_v of the vertices of one region, each computed once.
+struct Rates<'a, P, N> {
+    points: &'a P,
+    frame: [VertexId; 3],
+    is_left: &'a dyn Fn(VertexId) -> bool,
+    known: FxHashMap<VertexId, N>,
+}
+
+impl<P: PointStore, N: Number> Rates<'_, P, N> {
+    fn of(&mut self, v: VertexId) -> N {
+        if !(self.is_left)(v) {
+            return N::from_f64(0.0);
+        }
+        if let Some(rate) = self.known.get(&v) {
+            return rate.clone();
+        }
+        let [a, b, c] = self.frame;
+        let p = [a, b, c, v].map(|v| self.points.coordinates::<N>(v));
+        let rate = formula::orient3d(p.each_ref());
+        self.known.insert(v, rate.clone());
+        rate
+    }
+
+    fn evaluate(&mut self, circuit: [VertexId; 5]) -> (N, N) {
+        let p = circuit.map(|v| self.points.coordinates::<N>(v));
+        let rates = circuit.map(|v| self.of(v));
+        numerator_and_denominator(&p, &rates)
+    }
+}
+
+/// The sign of D, exact: filtered, then dyadic. The paper's own Orient4D is exact in every mode.
+struct DenominatorSign<'a, P> {
+    filter: Rates<'a, P, Approx>,
+    exact: Rates<'a, P, Dyadic>,
+}
+
+impl<P: PointStore> DenominatorSign<'_, P> {
+    fn of(&mut self, circuit: [VertexId; 5]) -> Sign {
+        let (_, d) = self.filter.evaluate(circuit);
+        d.sign()
+            .unwrap_or_else(|| self.exact.evaluate(circuit).1.exact_sign())
+    }
+}
+
+fn rates<'a, P, N>(
+    points: &'a P,
+    frame: [VertexId; 3],
+    is_left: &'a dyn Fn(VertexId) -> bool,
+) -> Rates<'a, P, N> {
+    Rates {
+        points,
+        frame,
+        is_left,
+        known: FxHashMap::default(),
+    }
+}
+
+/// Times as rounded quotients, ties in order of arrival: the paper's own method, which can fail.
+pub struct RoundedTimes<'a, P, N> {
+    denominator: DenominatorSign<'a, P>,
+    rates: Rates<'a, P, N>,
+    /// Times discarded because the quotient was not finite.
+    overflows: u64,
+}
+
+impl<'a, P: PointStore, N: Number> RoundedTimes<'a, P, N> {
+    /// For the polygon with the given frame; `is_left` tells the left vertices.
+    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: &'a dyn Fn(VertexId) -> bool) -> Self {
+        RoundedTimes {
+            denominator: DenominatorSign {
+                filter: rates(points, frame, is_left),
+                exact: rates(points, frame, is_left),
+            },
+            rates: rates(points, frame, is_left),
+            overflows: 0,
+        }
+    }
+}
+
+/// A float type in which the quotient is taken.
+pub trait Float: Number {
+    /// −n/d, rounded in this type.
+    fn negated_quotient(n: &Self, d: &Self) -> Self;
+}
+
+impl Float for f64 {
+    fn negated_quotient(n: &f64, d: &f64) -> f64 {
+        -n / d
+    }
+}
+
+impl Float for f32 {
+    fn negated_quotient(n: &f32, d: &f32) -> f32 {
+        -n / d
+    }
+}
+
+impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
+    type Time = N;
+    const EXACT: bool = false;
+
+    fn time(&mut self, circuit: [VertexId; 5]) -> Option<N> {
+        if !self.denominator.of(circuit).is_positive() {
+            return None;
+        }
+        let (n, d) = self.rates.evaluate(circuit);
+        let time = N::negated_quotient(&n, &d);
+        if time.to_f64().is_finite() {
+            Some(time)
+        } else {
+            self.overflows += 1;
+            None
+        }
+    }
+
+    fn undecided(&self) -> (u64, u64) {
+        (0, self.overflows)
+    }
+
+    fn compare(&mut self, a: &Event<N>, b: &Event<N>) -> Ordering {
+        a.time.to_f64().total_cmp(&b.time.to_f64())
+    }
+}
+
+/// The time −N/D as an unevaluated quotient: comparison needs no division.
+#[derive(Clone, Debug)]
+pub struct Quotient<N> {
+    numerator: N,
+    denominator: N,
+}
+
+/// Times in exact numbers, ties decided by the perturbation of the weights.
+pub struct ExactTimes<'a, P, N> {
+    denominator: DenominatorSign<'a, P>,
+    rates: Rates<'a, P, N>,
+    /// Comparisons that the quotients did not decide, so that the perturbation had to.
+    ties: u64,
+}
+
+impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
+    /// For the polygon with the given frame; `is_left` tells the left vertices.
+    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: &'a dyn Fn(VertexId) -> bool) -> Self {
+        ExactTimes {
+            denominator: DenominatorSign {
+                filter: rates(points, frame, is_left),
+                exact: rates(points, frame, is_left),
+            },
+            rates: rates(points, frame, is_left),
+            ties: 0,
+        }
+    }
+
+    /// The signs of t_v for the vertices of both circuits, in ε order, until one is not zero.
+    fn compare_perturbed(&mut self, a: &Event<Quotient<N>>, b: &Event<Quotient<N>>) -> Ordering {
+        self.ties += 1;
+        let points = self.rates.points;
+        let coefficients = |event: &Event<Quotient<N>>| {
+            let p = event.circuit.map(|v| points.coordinates::<N>(v));
+            formula::circuit(p.each_ref()).0
+        };
+        let (ca, cb) = (coefficients(a), coefficients(b));
+        let mut vertices: Vec<VertexId> = a.circuit.into_iter().chain(b.circuit).collect();
+        vertices.sort_unstable_by_key(|&v| points.identity(v));
+        vertices.dedup();
+        let zero = N::from_f64(0.0);
+        for v in vertices {
+            let of = |circuit: &[VertexId; 5], c: &[N; 5]| {
+                circuit
+                    .iter()
+                    .position(|&w| w == v)
+                    .map_or(zero.clone(), |i| c[i].clone())
+            };
+            let term = of(&a.circuit, &ca) * &b.time.denominator
+                - &(of(&b.circuit, &cb) * &a.time.denominator);
+            match term.exact_sign() {
+                Sign::Positive => return Ordering::Less,
+                Sign::Negative => return Ordering::Greater,
+                Sign::Zero => {}
+            }
+        }
+        Ordering::Equal
+    }
+}
+
+impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
+    type Time = Quotient<N>;
+    const EXACT: bool = true;
+
+    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
+        if !self.denominator.of(circuit).is_positive() {
+            return None;
+        }
+        let (numerator, denominator) = self.rates.evaluate(circuit);
+        Some(Quotient {
+            numerator,
+            denominator,
+        })
+    }
+
+    fn undecided(&self) -> (u64, u64) {
+        (self.ties, 0)
+    }
+
+    fn compare(&mut self, a: &Event<Quotient<N>>, b: &Event<Quotient<N>>) -> Ordering {
+        let ab = a.time.numerator.clone() * &b.time.denominator;
+        let ba = b.time.numerator.clone() * &a.time.denominator;
+        match (ab - &ba).exact_sign() {
+            Sign::Positive => Ordering::Less,
+            Sign::Negative => Ordering::Greater,
+            Sign::Zero => self.compare_perturbed(a, b),
+        }
+    }
+}

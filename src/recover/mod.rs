@@ -1,0 +1,12 @@
+//! From the Delaunay tetrahedralization of a PLC's vertices to its CDT: segments, then polygons, one missing region at
+//! a time, then inside and outside.
+
+pub mod cavity;
+pub mod flips;
+pub mod missing;
+pub mod polygons;
+pub mod region;
+pub mod scout;
+pub mod segments;
+pub mod side;
+pub mod split;

@@ -1,0 +1,454 @@
+//! All polygons, one missing region at a time, by either algorithm (paper §3, §3.3).
+
+use super::cavity::{self, Face, Refused, face};
+use super::flips::{
+    ExactTimes, FlipCounts, FlipInsertion, FlipOutcome, FlipTimes, RoundedTimes, polygon_faces,
+};
+use super::missing::{self, Obstacle};
+use super::region::Region;
+use super::segments::{SegmentIndex, Subsegments};
+use super::side::{Side, Sides};
+use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
+use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
+use crate::number::Dyadic;
+use crate::plc::{Complex, Polygon};
+use crate::predicate::PointStore;
+use rustc_hash::FxHashMap;
+use serde::Serialize;
+use std::collections::VecDeque;
+
+/// The number type of the flip queue.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Times {
+    /// Quotients rounded to single precision.
+    F32,
+    /// Quotients rounded to double precision: the paper's own.
+    F64,
+    /// Exact dyadic numbers, and the perturbation.
+    Exact,
+    /// GMP rationals, and the perturbation.
+    #[cfg(feature = "rug")]
+    Rug,
+}
+
+/// The algorithm that inserts a polygon.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Insertion {
+    /// Cavity retriangulation (paper §3.1).
+    Cavity,
+    /// Bistellar flips in order of their times (paper §3.2).
+    Flip(Times),
+}
+
+/// What polygon insertion did.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Debug, Serialize)]
+pub struct PolygonCounts {
+    /// Polygons inserted, reinsertions not counted.
+    pub polygons: u64,
+    /// Polygons that were already in the mesh when their turn came.
+    pub already_present: u64,
+    /// Missing regions inserted, with those of reinsertions.
+    pub regions: u64,
+    /// Crossing tetrahedra of all regions.
+    pub crossing_tets: u64,
+    /// The largest number of crossing tetrahedra of one region.
+    pub largest_region: u64,
+    /// Cavities: tetrahedra swallowed in expansions.
+    pub swallowed: u64,
+    /// Cavities: subpolygons of other polygons that an insertion displaced.
+    pub displaced: u64,
+    /// Cavities: polygons inserted again because they were displaced.
+    pub reinserted: u64,
+    /// Cavities: regions inserted by exact flips because retriangulation was refused.
+    pub cavity_fallbacks: u64,
+    /// Polygons with vertices that are not exactly on one plane.
+    pub not_flat: u64,
+    /// Shim tetrahedra left: all four vertices on one polygon that is flat only to rounding.
+    pub shims: u64,
+    /// The flips.
+    pub flips: FlipCounts,
+}
+
+/// The triangles of the mesh that lie on polygons, by their vertices in ascending order.
+pub type Subpolygons = FxHashMap<Face, u32>;
+
+/// Inserts polygons into the tetrahedralization of an edge-protected PLC.
+pub struct PolygonInsertion<'a, P> {
+    /// The vertices.
+    pub points: &'a P,
+    /// The mesh.
+    pub mesh: &'a mut TetMesh,
+    /// Its vertex stars.
+    pub incidence: &'a mut Incidence,
+    /// The PLC.
+    pub complex: &'a Complex,
+    /// Its segments as they are in the mesh.
+    pub subsegments: &'a Subsegments,
+    /// The triangles inserted so far.
+    pub subpolygons: &'a mut Subpolygons,
+    /// Which algorithm.
+    pub insertion: Insertion,
+    /// What has been done.
+    pub counts: PolygonCounts,
+}
+
+/// The triangles of a region's part of f, after its insertion.
+type Faces = Vec<[VertexId; 3]>;
+
+/// Why one region could not be inserted, in one orientation of f.
+enum RegionFailure {
+    Stuck(usize),
+    NotDelaunay(usize),
+    Impossible,
+    Incompatible,
+}
+
+impl<P: PointStore> PolygonInsertion<'_, P> {
+    /// Inserts all polygons of the complex. `progress` is told how many are done.
+    ///
+    /// # Errors
+    /// The first polygon that cannot be inserted, by name.
+    pub fn insert_all(&mut self, progress: &mut dyn FnMut(usize)) -> Result<(), Failure> {
+        let index = SegmentIndex::new(self.complex);
+        for f in 0..self.complex.polygons.len() {
+            // Displaced polygons are reinserted at once, and may not displace others, so that this ends.
+            let mut queue = VecDeque::from([(f, true)]);
+            while let Some((f, first_time)) = queue.pop_front() {
+                let displaced = self.insert_polygon(&index, f, first_time)?;
+                self.counts.reinserted += displaced.len() as u64;
+                queue.extend(displaced.into_iter().map(|g| (g, false)));
+            }
+            self.counts.polygons += 1;
+            progress(f + 1);
+        }
+        Ok(())
+    }
+
+    /// Inserts polygon `f`, and returns the polygons that it displaced.
+    fn insert_polygon(
+        &mut self,
+        index: &SegmentIndex,
+        f: usize,
+        may_displace: bool,
+    ) -> Result<Vec<usize>, Failure> {
+        let polygon = &self.complex.polygons[f];
+        let boundary = boundary_subsegments(self.subsegments, index, polygon);
+        let on_boundary = boundary.iter().flatten().copied();
+        let sides = Sides::new(
+            self.points,
+            polygon,
+            polygon.vertices.iter().copied().chain(on_boundary),
+        );
+        let flat = sides.is_flat();
+        let mut displaced: Vec<usize> = Vec::new();
+        let mut covering = self.search(f, &sides, &boundary)?;
+        if may_displace {
+            self.counts.already_present += u64::from(covering.seeds.is_empty());
+            self.counts.not_flat += u64::from(!flat);
+        }
+        if !covering.seeds.is_empty() {
+            for c in covering.faces {
+                self.subpolygons.insert(face(self.mesh.facet(c)), f as u32);
+            }
+            for &seed in &covering.seeds {
+                // The region of a seed may have been inserted with that of another one.
+                if self.mesh.is_alive(seed) && sides.crosses_tet(self.mesh, seed) {
+                    displaced.extend(self.insert_region(f, &sides, flat, seed, may_displace)?);
+                }
+            }
+            covering = self.search(f, &sides, &boundary)?;
+            if !covering.seeds.is_empty() {
+                return Err(self.not_flat(f, NotFlatReason::AmbiguousSide));
+            }
+        }
+        for c in covering.faces {
+            self.subpolygons.insert(face(self.mesh.facet(c)), f as u32);
+        }
+        displaced.sort_unstable();
+        displaced.dedup();
+        Ok(displaced)
+    }
+
+    fn search(
+        &self,
+        f: usize,
+        sides: &Sides<P>,
+        boundary: &[[VertexId; 2]],
+    ) -> Result<missing::Covering, Failure> {
+        let is_subpolygon = |t: Face| self.subpolygons.get(&t) == Some(&(f as u32));
+        missing::search(self.mesh, self.incidence, sides, boundary, &is_subpolygon).map_err(
+            |obstacle| match obstacle {
+                Obstacle::Stray(vertex)
+                    if self.subsegments.segment_of_steiner(vertex).is_none() =>
+                {
+                    let facets = self.complex.polygons[f].facets.clone();
+                    InvalidPlc::VertexOnPolygon { facets, vertex }.into()
+                }
+                Obstacle::Stray(_) | Obstacle::Nothing(_) => {
+                    self.not_flat(f, NotFlatReason::AmbiguousSide)
+                }
+            },
+        )
+    }
+
+    /// Inserts the region that `seed` belongs to, and returns the polygons that it displaced.
+    fn insert_region(
+        &mut self,
+        f: usize,
+        sides: &Sides<P>,
+        flat: bool,
+        seed: TetId,
+        may_displace: bool,
+    ) -> Result<Vec<usize>, Failure> {
+        let region = Region::grow(self.mesh, sides, seed);
+        self.check_crossings(f, sides, flat, &region)?;
+        self.counts.regions += 1;
+        self.counts.crossing_tets += region.tets.len() as u64;
+        self.counts.largest_region = self.counts.largest_region.max(region.tets.len() as u64);
+        if self.insertion == Insertion::Cavity {
+            if let Some(displaced) = self.by_cavity(f, sides, &region, may_displace) {
+                return Ok(displaced);
+            }
+            if !flat
+                && let Some(displaced) = self.by_cavity(f, &sides.reversed(), &region, may_displace)
+            {
+                return Ok(displaced);
+            }
+            self.counts.cavity_fallbacks += 1;
+        }
+        let times = match self.insertion {
+            Insertion::Cavity => Times::Exact,
+            Insertion::Flip(times) => times,
+        };
+        let mut result = self.by_flips(f, sides, flat, region, times);
+        if !flat && let Err((_, region)) = result {
+            result = self.by_flips(f, &sides.reversed(), flat, region, times);
+        }
+        result.map(|()| Vec::new()).map_err(|(failure, _)| {
+            let facets = self.complex.polygons[f].facets.clone();
+            match failure {
+                RegionFailure::Stuck(crossing) if flat => GaveUp::Stuck { facets, crossing }.into(),
+                RegionFailure::NotDelaunay(faces) if flat => {
+                    GaveUp::NotDelaunay { facets, faces }.into()
+                }
+                RegionFailure::Impossible if flat => GaveUp::FlipOrder { facets }.into(),
+                _ => self.not_flat(f, NotFlatReason::Incompatible),
+            }
+        })
+    }
+
+    /// In a valid PLC no segment and no other polygon crosses f.
+    fn check_crossings(
+        &self,
+        f: usize,
+        sides: &Sides<P>,
+        flat: bool,
+        region: &Region,
+    ) -> Result<(), Failure> {
+        let certain = |vertices: &[VertexId]| {
+            flat && vertices
+                .iter()
+                .all(|&v| self.subsegments.segment_of_steiner(v).is_none())
+        };
+        let facets = || self.complex.polygons[f].facets.clone();
+        for segment in region.crossing_edges(self.mesh, sides) {
+            let [a, b] = segment;
+            if self.subsegments.segment_of(a, b).is_some() {
+                return Err(if certain(&segment) {
+                    let facets = facets();
+                    InvalidPlc::SegmentThroughPolygon { facets, segment }.into()
+                } else {
+                    self.not_flat(f, NotFlatReason::Crossed)
+                });
+            }
+        }
+        for c in region.crossing_triangles(self.mesh, sides) {
+            let facet = self.mesh.facet(c);
+            if let Some(&other) = self.subpolygons.get(&face(facet)) {
+                return Err(if certain(&facet) {
+                    let second = self.complex.polygons[other as usize].facets.clone();
+                    InvalidPlc::PolygonsIntersect {
+                        first: facets(),
+                        second,
+                    }
+                    .into()
+                } else {
+                    self.not_flat(f, NotFlatReason::Crossed)
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Cavity retriangulation of one region; `None` if it is refused.
+    fn by_cavity(
+        &mut self,
+        f: usize,
+        sides: &Sides<P>,
+        region: &Region,
+        may_displace: bool,
+    ) -> Option<Vec<usize>> {
+        let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
+        let result =
+            cavity::retriangulate(self.mesh, sides, region, &is_subpolygon).and_then(|r| {
+                if !may_displace && !r.displaced.is_empty() {
+                    Err(Refused::Displaces)
+                } else if self.mesh.can_replace(&r.old, &r.new) {
+                    Ok(r)
+                } else {
+                    Err(Refused::NotExposed)
+                }
+            });
+        let r = result.ok()?;
+        let created = self.mesh.replace(&r.old, &r.new);
+        self.incidence.update(self.mesh, &created);
+        self.counts.swallowed += r.swallowed as u64;
+        self.counts.displaced += r.displaced.len() as u64;
+        self.counts.shims += count_shims(self.mesh, sides, &created);
+        self.register(f, &r.faces);
+        let polygons = r
+            .displaced
+            .iter()
+            .filter_map(|t| self.subpolygons.remove(t));
+        Some(polygons.map(|g| g as usize).collect())
+    }
+
+    /// Flips in one region. If they fail the region is restored, and given back.
+    fn by_flips(
+        &mut self,
+        f: usize,
+        sides: &Sides<P>,
+        flat: bool,
+        region: Region,
+        times: Times,
+    ) -> Result<(), (RegionFailure, Region)> {
+        let before: Vec<[VertexId; 4]> =
+            region.tets.iter().map(|&t| self.mesh.vertices(t)).collect();
+        let is_left = |v: VertexId| sides.of(v) == Side::Left;
+        let (points, frame) = (self.points, sides.frame);
+        let (outcome, tets) = match times {
+            Times::F32 => self.run(
+                sides,
+                &region,
+                RoundedTimes::<P, f32>::new(points, frame, &is_left),
+            ),
+            Times::F64 => self.run(
+                sides,
+                &region,
+                RoundedTimes::<P, f64>::new(points, frame, &is_left),
+            ),
+            Times::Exact => self.run(
+                sides,
+                &region,
+                ExactTimes::<P, Dyadic>::new(points, frame, &is_left),
+            ),
+            #[cfg(feature = "rug")]
+            Times::Rug => self.run(
+                sides,
+                &region,
+                ExactTimes::<P, rug::Rational>::new(points, frame, &is_left),
+            ),
+        };
+        self.incidence.update(self.mesh, &tets);
+        let faces = polygon_faces(self.mesh, sides, &tets);
+        let failure = match outcome {
+            FlipOutcome::Stuck { crossing } => Some(RegionFailure::Stuck(crossing)),
+            FlipOutcome::Impossible => Some(RegionFailure::Impossible),
+            FlipOutcome::Done => self.check_delaunay(flat, times, &tets, &faces).err(),
+        };
+        if let Some(failure) = failure {
+            let mut tets = self.mesh.replace(&tets, &before);
+            self.incidence.update(self.mesh, &tets);
+            tets.sort_unstable();
+            return Err((failure, Region { tets }));
+        }
+        self.counts.shims += count_shims(self.mesh, sides, &tets);
+        self.register(f, &faces);
+        Ok(())
+    }
+
+    fn run<C: FlipTimes>(
+        &mut self,
+        sides: &Sides<P>,
+        region: &Region,
+        times: C,
+    ) -> (FlipOutcome, Vec<TetId>) {
+        let (outcome, tets, counts) =
+            FlipInsertion::new(self.mesh, sides, region, times).insert(region);
+        self.counts.flips.add(&counts);
+        (outcome, tets)
+    }
+
+    /// Rounded times can leave triangles that are not locally Delaunay, and so can a polygon that is not flat (paper,
+    /// end of §3.2). Exact times on a flat polygon cannot.
+    fn check_delaunay(
+        &self,
+        flat: bool,
+        times: Times,
+        tets: &[TetId],
+        faces: &[[VertexId; 3]],
+    ) -> Result<(), RegionFailure> {
+        let proved = flat && !matches!(times, Times::F32 | Times::F64);
+        if proved && !cfg!(debug_assertions) {
+            return Ok(());
+        }
+        let on_f: rustc_hash::FxHashSet<Face> = faces.iter().map(|&t| face(t)).collect();
+        let corners = tets
+            .iter()
+            .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
+        let bad = corners
+            .filter(|&c| !self.mesh.is_ghost(self.mesh.neighbor(c)))
+            .filter(|&c| {
+                let [a, b, d, e] = self.mesh.vertices(c.tet());
+                self.points
+                    .insphere([a, b, d, e, self.mesh.apex_across(c)])
+                    .is_positive()
+            })
+            .filter(|&c| {
+                let t = face(self.mesh.facet(c));
+                !on_f.contains(&t) && !self.subpolygons.contains_key(&t)
+            })
+            .count();
+        debug_assert!(
+            !proved || bad == 0,
+            "exact flips on a flat polygon end in the CDT"
+        );
+        if bad > 0 {
+            Err(RegionFailure::NotDelaunay(bad))
+        } else {
+            Ok(())
+        }
+    }
+
+    fn register(&mut self, f: usize, faces: &Faces) {
+        self.subpolygons
+            .extend(faces.iter().map(|&t| (face(t), f as u32)));
+    }
+
+    fn not_flat(&self, f: usize, reason: NotFlatReason) -> Failure {
+        let facets = self.complex.polygons[f].facets.clone();
+        GaveUp::NotFlat { facets, reason }.into()
+    }
+}
+
+/// The directed subsegments that bound f.
+fn boundary_subsegments(
+    subsegments: &Subsegments,
+    index: &SegmentIndex,
+    f: &Polygon,
+) -> Vec<[VertexId; 2]> {
+    let chains = f
+        .edges
+        .iter()
+        .map(|&[a, b]| subsegments.chain_between(index, a, b));
+    chains
+        .flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>())
+        .collect()
+}
+
+fn count_shims<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, tets: &[TetId]) -> u64 {
+    let is_shim = |&&t: &&TetId| mesh.vertices(t).iter().all(|&v| sides.of(v) == Side::On);
+    tets.iter().filter(is_shim).count() as u64
+}

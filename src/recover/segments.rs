@@ -1,0 +1,314 @@
+//! Segment recovery: Steiner points until every segment is a chain of edges of the Delaunay tetrahedralization
+//! (paper §2; Si & Gärtner 2005).
+//!
+//! # Why presence is enough
+//! The CDT theorem wants every segment *strongly* Delaunay: a sphere through its ends with no other vertex in or on it.
+//! An edge of one of several Delaunay tetrahedralizations of cospherical vertices is less. But ours is the regular
+//! tetrahedralization of the vertices with infinitesimal weights in general position: every edge of it is an edge of a
+//! simplicial convex hull in R⁴ (as far as lifted points go), which has a supporting hyperplane that touches it nowhere
+//! else, so it is strongly regular for those weights. The CDT theorem holds for weighted CDTs (Shewchuk 2008), so the
+//! PLC has a CDT for the perturbed weights, which is what polygon insertion, with the same perturbation, builds.
+//!
+//! Each missing subsegment is split ([`super::split`]); an insertion can destroy other subsegments, so those in its
+//! conflict zone are looked at again, and no others.
+
+use super::scout::{Scouted, crossed_by, scout};
+use super::split::{self, Reference, Subsegment, split_parameter};
+use crate::delaunay::Delaunay;
+use crate::error::{Failure, GaveUp, InvalidPlc};
+use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
+use crate::plc::Complex;
+use crate::predicate::PointStore;
+use rustc_hash::FxHashMap;
+
+/// The segments of a complex and how they are divided into subsegments.
+#[derive(Clone, Debug, Default)]
+pub struct Subsegments {
+    /// The segment of each subsegment, by its vertices in ascending order.
+    of: FxHashMap<[VertexId; 2], u32>,
+    /// For each segment its vertices from end to end, with their parameters.
+    chains: Vec<Vec<(f64, VertexId)>>,
+    /// For each Steiner point, the segment it lies on; indexed from `first_steiner`.
+    steiner: Vec<u32>,
+    first_steiner: usize,
+    ends: Vec<[VertexId; 2]>,
+}
+
+impl Subsegments {
+    fn new(complex: &Complex, first_steiner: usize) -> Subsegments {
+        let ends: Vec<[VertexId; 2]> = complex.segments.iter().map(|s| s.ends).collect();
+        Subsegments {
+            of: ends
+                .iter()
+                .enumerate()
+                .map(|(i, &[a, b])| (key(a, b), i as u32))
+                .collect(),
+            chains: ends
+                .iter()
+                .map(|&[a, b]| vec![(0.0, a), (1.0, b)])
+                .collect(),
+            steiner: Vec::new(),
+            first_steiner,
+            ends,
+        }
+    }
+
+    /// The segment that ab is a subsegment of, as an index in [`Complex::segments`].
+    pub fn segment_of(&self, a: VertexId, b: VertexId) -> Option<u32> {
+        self.of.get(&key(a, b)).copied()
+    }
+
+    /// The segment that a Steiner point lies on; `None` for vertices of the input.
+    pub fn segment_of_steiner(&self, v: VertexId) -> Option<u32> {
+        let i = v.index().checked_sub(self.first_steiner)?;
+        self.steiner.get(i).copied()
+    }
+
+    /// The vertices of segment `s` from its first end to its second.
+    pub fn chain(&self, s: u32) -> impl DoubleEndedIterator<Item = VertexId> + '_ {
+        self.chains[s as usize].iter().map(|&(_, v)| v)
+    }
+
+    /// The vertices of the segment ab of the input, from a to b.
+    pub fn chain_between(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> Vec<VertexId> {
+        let s = index.find(a, b).expect("every polygon edge is a segment");
+        let chain = self.chain(s);
+        if self.ends[s as usize][0] == a {
+            chain.collect()
+        } else {
+            chain.rev().collect()
+        }
+    }
+
+    /// How many Steiner points there are.
+    pub fn steiner_count(&self) -> usize {
+        self.steiner.len()
+    }
+
+    /// The range of parameters of the subsegment ab of segment s.
+    fn range(&self, s: u32, a: VertexId, b: VertexId) -> (usize, [f64; 2]) {
+        let chain = &self.chains[s as usize];
+        let i = chain
+            .windows(2)
+            .position(|w| (w[0].1 == a && w[1].1 == b) || (w[0].1 == b && w[1].1 == a))
+            .expect("a subsegment is in the chain of its segment");
+        (i, [chain[i].0, chain[i + 1].0])
+    }
+
+    fn split(&mut self, s: u32, at: usize, t: f64, v: VertexId) -> [[VertexId; 2]; 2] {
+        let chain = &mut self.chains[s as usize];
+        let (a, b) = (chain[at].1, chain[at + 1].1);
+        chain.insert(at + 1, (t, v));
+        self.of.remove(&key(a, b));
+        self.of.insert(key(a, v), s);
+        self.of.insert(key(v, b), s);
+        debug_assert_eq!(v.index(), self.first_steiner + self.steiner.len());
+        self.steiner.push(s);
+        [[a, v], [v, b]]
+    }
+}
+
+/// Finds a segment of the input by its ends.
+#[derive(Clone, Debug)]
+pub struct SegmentIndex(FxHashMap<[VertexId; 2], u32>);
+
+impl SegmentIndex {
+    /// The index of a complex.
+    pub fn new(complex: &Complex) -> SegmentIndex {
+        let segments = complex.segments.iter().enumerate();
+        SegmentIndex(
+            segments
+                .map(|(i, s)| (key(s.ends[0], s.ends[1]), i as u32))
+                .collect(),
+        )
+    }
+
+    fn find(&self, a: VertexId, b: VertexId) -> Option<u32> {
+        self.0.get(&key(a, b)).copied()
+    }
+}
+
+fn key(a: VertexId, b: VertexId) -> [VertexId; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
+/// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
+///
+/// # Errors
+/// [`InvalidPlc`] where a vertex lies on a segment; [`GaveUp::SegmentTooShort`] where a segment cannot be divided any
+/// more in the store's coordinates, as happens where segments or facets intersect.
+pub fn recover_segments<P: PointStore>(
+    complex: &Complex,
+    points: &mut P,
+    delaunay: &mut Delaunay,
+) -> Result<(Subsegments, Incidence), Failure> {
+    let incidence = Incidence::new(&delaunay.mesh, points.len());
+    let mut recovery = SegmentRecovery {
+        acute: acute_angles(complex, points),
+        subsegments: Subsegments::new(complex, points.len()),
+        points,
+        delaunay,
+        incidence,
+        missing: Vec::new(),
+    };
+    // The queue is a stack; the first segments of the input come first.
+    for segment in complex.segments.iter().rev() {
+        recovery.missing.push(segment.ends);
+    }
+    while let Some([a, b]) = recovery.missing.pop() {
+        recovery.recover(a, b)?;
+    }
+    Ok((recovery.subsegments, recovery.incidence))
+}
+
+struct SegmentRecovery<'a, P> {
+    points: &'a mut P,
+    delaunay: &'a mut Delaunay,
+    incidence: Incidence,
+    subsegments: Subsegments,
+    /// Subsegments to look at.
+    missing: Vec<[VertexId; 2]>,
+    /// For each vertex of the input, the smallest angle between two of its segments, if acute.
+    acute: Vec<Option<f64>>,
+}
+
+impl<P: PointStore> SegmentRecovery<'_, P> {
+    /// Looks for the edge ab; splits it if it is missing. A subsegment that is no longer one is passed over.
+    fn recover(&mut self, a: VertexId, b: VertexId) -> Result<(), Failure> {
+        let Some(s) = self.subsegments.segment_of(a, b) else {
+            return Ok(());
+        };
+        let start = self
+            .incidence
+            .tet_at(a)
+            .expect("every vertex is in the mesh");
+        match scout(self.points, &self.delaunay.mesh, start, a, b) {
+            Scouted::Edge(_) => Ok(()),
+            Scouted::Vertex(v) => Err(self.vertex_on_segment(s, v)),
+            Scouted::Crosses(first) => {
+                let reference = self.reference(s, first, a, b);
+                self.split(s, a, b, reference)
+            }
+        }
+    }
+
+    fn vertex_on_segment(&self, s: u32, v: VertexId) -> Failure {
+        let segment = self.subsegments.ends[s as usize];
+        match self.subsegments.segment_of_steiner(v) {
+            None => InvalidPlc::VertexOnSegment { segment, vertex: v }.into(),
+            Some(other) => {
+                let other = self.subsegments.ends[other as usize];
+                InvalidPlc::SegmentsMeet {
+                    segments: [segment, other],
+                }
+                .into()
+            }
+        }
+    }
+
+    /// The encroaching vertex that sees ab under the largest angle, among those of the crossed tetrahedra.
+    fn reference(&self, s: u32, first: TetId, a: VertexId, b: VertexId) -> Option<Reference> {
+        let mesh = &self.delaunay.mesh;
+        let (pa, pb) = (self.points.rounded(a), self.points.rounded(b));
+        let crossed = crossed_by(self.points, mesh, first, a, b);
+        let vertices = crossed.iter().flat_map(|&t| mesh.vertices(t));
+        let seen = vertices
+            .filter(|&v| v != a && v != b)
+            .map(|v| (split::sight(self.points.rounded(v), pa, pb), v));
+        let (_, v) = seen.min_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)))?;
+        let ends = self.subsegments.ends[s as usize];
+        let theirs = self
+            .subsegments
+            .segment_of_steiner(v)
+            .map(|other| self.subsegments.ends[other as usize]);
+        let shares = theirs.and_then(|theirs| (0..2).find(|&i| theirs.contains(&ends[i])));
+        Some(Reference {
+            point: self.points.rounded(v),
+            shares,
+        })
+    }
+
+    fn split(
+        &mut self,
+        s: u32,
+        a: VertexId,
+        b: VertexId,
+        reference: Option<Reference>,
+    ) -> Result<(), Failure> {
+        let ends = self.subsegments.ends[s as usize];
+        let too_short = GaveUp::SegmentTooShort { segment: ends };
+        let (at, range) = self.subsegments.range(s, a, b);
+        let subsegment = Subsegment {
+            ends: ends.map(|v| self.points.rounded(v)),
+            range,
+            acute: ends.map(|v| self.acute[v.index()]),
+        };
+        let t = split_parameter(&subsegment, reference).ok_or(too_short.clone())?;
+        let v = self.points.push_on_segment(ends[0], ends[1], t);
+        if let Some(near) = self.incidence.tet_at(a) {
+            self.delaunay.start_at(near);
+        }
+        let start = self.delaunay.locate(self.points, v);
+        if self
+            .delaunay
+            .mesh
+            .vertices(start)
+            .iter()
+            .any(|&w| !w.is_infinite() && self.points.coincide(v, w))
+        {
+            return Err(too_short.into());
+        }
+        self.delaunay.find_conflicts(self.points, v, start);
+        self.queue_endangered();
+        self.delaunay.replace_conflicts(v);
+        self.incidence
+            .update(&self.delaunay.mesh, self.delaunay.created());
+        self.missing.extend(self.subsegments.split(s, at, t, v));
+        Ok(())
+    }
+
+    /// Every subsegment among the edges of the conflict zone may be about to vanish.
+    fn queue_endangered(&mut self) {
+        for &t in self.delaunay.conflicts() {
+            for [a, b] in edges_of(&self.delaunay.mesh, t) {
+                if self.subsegments.segment_of(a, b).is_some() {
+                    self.missing.push([a, b]);
+                }
+            }
+        }
+    }
+}
+
+fn edges_of(mesh: &TetMesh, t: TetId) -> [[VertexId; 2]; 6] {
+    let [a, b, c, d] = mesh.vertices(t);
+    [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]
+}
+
+/// Angles below this make a vertex acute: two segments can then encroach upon each other for ever.
+const ACUTE: f64 = std::f64::consts::FRAC_PI_3;
+/// A vertex with more segments than this is acute without further measurement: so many directions cannot be far apart.
+const MANY_SEGMENTS: usize = 64;
+
+/// For each vertex, the smallest angle between two of its segments, where it is below [`ACUTE`].
+fn acute_angles<P: PointStore>(complex: &Complex, points: &P) -> Vec<Option<f64>> {
+    let mut neighbours: Vec<Vec<VertexId>> = vec![Vec::new(); points.len()];
+    for segment in &complex.segments {
+        let [a, b] = segment.ends;
+        neighbours[a.index()].push(b);
+        neighbours[b.index()].push(a);
+    }
+    let smallest = |v: usize, others: &[VertexId]| {
+        if others.len() > MANY_SEGMENTS {
+            return Some(1e-4);
+        }
+        let p = points.rounded(VertexId::new(v));
+        let pairs = (0..others.len()).flat_map(|i| (0..i).map(move |j| (others[i], others[j])));
+        let angles = pairs.map(|(a, b)| split::angle(p, points.rounded(a), points.rounded(b)));
+        angles.filter(|&angle| angle < ACUTE).min_by(f64::total_cmp)
+    };
+    neighbours
+        .iter()
+        .enumerate()
+        .map(|(v, others)| smallest(v, others))
+        .collect()
+}

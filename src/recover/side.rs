@@ -1,0 +1,103 @@
+//! On which side of a polygon a vertex lies (paper §3.2: left, right, or neither).
+
+use crate::mesh::{TetId, TetMesh, VertexId};
+use crate::number::Sign;
+use crate::plc::Polygon;
+use crate::predicate::PointStore;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::cell::RefCell;
+
+/// Where a vertex lies with respect to the plane h of a polygon f.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Side {
+    /// Where orient3d(frame, v) is positive.
+    Left,
+    /// Where it is negative.
+    Right,
+    /// A vertex of f, by what the input says, not by coordinates: if f is flat only to rounding, its vertices are still
+    /// treated as on h (paper §3.2).
+    On,
+    /// A vertex exactly on h that is no vertex of f. Elsewhere on the plane, unless the PLC is invalid.
+    Stray,
+    /// The infinite vertex.
+    Infinite,
+}
+
+/// A polygon in the process of insertion: its vertices and boundary, with the Steiner points on its segments.
+#[derive(Clone, Debug)]
+pub struct Sides<'a, P> {
+    points: &'a P,
+    /// Three vertices of the polygon; see [`Polygon::frame`].
+    pub frame: [VertexId; 3],
+    vertices: FxHashSet<VertexId>,
+    known: RefCell<FxHashMap<VertexId, Side>>,
+}
+
+impl<'a, P: PointStore> Sides<'a, P> {
+    /// The sides of a polygon with the given vertices, Steiner points included.
+    pub fn new(
+        points: &'a P,
+        polygon: &Polygon,
+        vertices: impl IntoIterator<Item = VertexId>,
+    ) -> Sides<'a, P> {
+        Sides {
+            points,
+            frame: polygon.frame,
+            vertices: vertices.into_iter().collect(),
+            known: RefCell::default(),
+        }
+    }
+
+    /// The same polygon seen from behind.
+    pub fn reversed(&self) -> Sides<'a, P> {
+        let [a, b, c] = self.frame;
+        Sides {
+            points: self.points,
+            frame: [b, a, c],
+            vertices: self.vertices.clone(),
+            known: RefCell::default(),
+        }
+    }
+
+    /// Whether all vertices of f lie exactly on h.
+    pub fn is_flat(&self) -> bool {
+        let [a, b, c] = self.frame;
+        self.vertices
+            .iter()
+            .all(|&v| self.points.orient3d([a, b, c, v]).is_zero())
+    }
+
+    /// The point store.
+    pub fn points(&self) -> &'a P {
+        self.points
+    }
+
+    /// The side of v. Computed once per vertex.
+    pub fn of(&self, v: VertexId) -> Side {
+        if v.is_infinite() {
+            return Side::Infinite;
+        }
+        if self.vertices.contains(&v) {
+            return Side::On;
+        }
+        *self.known.borrow_mut().entry(v).or_insert_with(|| {
+            let [a, b, c] = self.frame;
+            match self.points.orient3d([a, b, c, v]) {
+                Sign::Positive => Side::Left,
+                Sign::Negative => Side::Right,
+                Sign::Zero => Side::Stray,
+            }
+        })
+    }
+
+    /// Whether a simplex has vertices on both sides: a *crossing simplex*, if it is in the region R.
+    pub fn crosses(&self, simplex: &[VertexId]) -> bool {
+        let has = |side| simplex.iter().any(|&v| self.of(v) == side);
+        has(Side::Left) && has(Side::Right)
+    }
+
+    /// Whether t has vertices on both sides and is no ghost.
+    pub fn crosses_tet(&self, mesh: &TetMesh, t: TetId) -> bool {
+        !mesh.is_ghost(t) && self.crosses(&mesh.vertices(t))
+    }
+}

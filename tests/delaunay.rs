@@ -1,0 +1,118 @@
+//! The Delaunay tetrahedralization is canonical, complete and Delaunay, on the families that break floats.
+
+mod common;
+
+use common::{all_vertices, sorted_tets};
+use proptest::prelude::*;
+use tetflip::delaunay::{DelaunayError, delaunay};
+use tetflip::mesh::{TetMesh, VertexId};
+use tetflip::predicate::{DoublePoints, PointStore};
+
+/// No facet fails the perturbed insphere test, all tetrahedra are positive, and the hull is convex.
+fn assert_delaunay(points: &DoublePoints, mesh: &TetMesh) {
+    assert_eq!(mesh.check(), Ok(()));
+    for t in mesh.all() {
+        let v = mesh.vertices(t);
+        if mesh.is_ghost(t) {
+            continue;
+        }
+        assert!(points.orient3d(v).is_positive());
+        for slot in 0..4 {
+            let apex = mesh.apex_across(t.corner(slot));
+            if !apex.is_infinite() {
+                let [a, b, c, d] = v;
+                assert!(points.insphere([a, b, c, d, apex]).is_negative());
+            }
+        }
+    }
+    // Every hull facet has every vertex on its inner side or on it.
+    for t in mesh.all().filter(|&t| mesh.is_ghost(t)) {
+        let slot = mesh.slot_of(t, VertexId::INFINITE).expect("a ghost");
+        for p in (0..points.len()).map(VertexId::new) {
+            let mut moved = mesh.vertices(t);
+            moved[slot] = p;
+            assert!(!points.orient3d(moved).is_positive());
+        }
+    }
+}
+
+/// Distinct points of nasty families.
+fn family() -> impl Strategy<Value = Vec<[f64; 3]>> {
+    let lattice = prop::collection::btree_set([0i32..4, 0..4, 0..3], 4..40)
+        .prop_map(|s| s.into_iter().map(|p| p.map(f64::from)).collect::<Vec<_>>());
+    let jittered =
+        prop::collection::btree_map([0i32..3, 0..3, 0..3], [-1i32..2, -1..2, -1..2], 4..27)
+            .prop_map(|m| {
+                let jitter =
+                    |(x, j): (i32, i32)| f64::from(x + 1) * (1.0 + f64::from(j) * f64::EPSILON);
+                m.into_iter()
+                    .map(|(p, j)| [0, 1, 2].map(|i| jitter((p[i], j[i]))))
+                    .collect::<Vec<_>>()
+            });
+    // Integer points on the sphere of radius 3: (±3,0,0), (±1,±2,±2) and permutations.
+    let sphere = prop::collection::btree_set((0usize..3, -1i32..2, [-1i32..2, -1..2]), 4..30)
+        .prop_map(|s| {
+            let mut points: Vec<[f64; 3]> = Vec::new();
+            for (axis, a, [b, c]) in s {
+                let mut p = if b == 0 || c == 0 || a == 0 {
+                    [3 * a, 0, 0]
+                } else {
+                    [a, 2 * b, 2 * c]
+                };
+                p.rotate_right(axis);
+                let p = p.map(f64::from);
+                if p != [0.0; 3] && !points.contains(&p) {
+                    points.push(p);
+                }
+            }
+            points
+        });
+    let scaled = (lattice.clone(), -990i32..1000).prop_map(|(p, e)| {
+        p.into_iter()
+            .map(|q| q.map(|x| x * 2f64.powi(e)))
+            .collect::<Vec<_>>()
+    });
+    let uniform = prop::collection::vec([0.0..1.0, 0.0..1.0, 0.0..1.0f64], 4..60);
+    prop_oneof![lattice, jittered, sphere, scaled, uniform]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn delaunay_in_every_order(p in family(), swaps in prop::collection::vec((0usize..60, 0usize..60), 60)) {
+        let points = DoublePoints::new(p);
+        let all = all_vertices(&points);
+        let Ok(first) = delaunay(&points, &all) else { return Ok(()) };
+        assert_delaunay(&points, &first.mesh);
+        prop_assert_eq!(common::used_vertices(&first.mesh), all.clone());
+        // The same vertices inserted one by one in another order, from another first tetrahedron.
+        let mut order = all;
+        let n = order.len();
+        for (i, j) in swaps {
+            order.swap(i % n, j % n);
+        }
+        let second = common::delaunay_in_order(&points, &order);
+        prop_assert_eq!(sorted_tets(&first.mesh), sorted_tets(&second.mesh));
+    }
+}
+
+#[test]
+fn flat_sets_are_typed_errors() {
+    let flat = |p: Vec<[f64; 3]>| {
+        let points = DoublePoints::new(p);
+        delaunay(&points, &all_vertices(&points))
+            .map(|_| ())
+            .unwrap_err()
+    };
+    let line = (0..9)
+        .map(|i| [f64::from(i) * 0.1, f64::from(i) * 0.1, 1.0])
+        .collect();
+    assert_eq!(flat(line), DelaunayError::Collinear(9));
+    let plane = (0..9)
+        .map(|i| [f64::from(i), f64::from(i * i), 1.0])
+        .collect();
+    assert_eq!(flat(plane), DelaunayError::Coplanar(9));
+    assert_eq!(flat(vec![[0.0; 3], [1.0; 3]]), DelaunayError::TooFew(2));
+    assert_eq!(flat(vec![]), DelaunayError::TooFew(0));
+}
