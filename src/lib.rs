@@ -4,6 +4,7 @@
 
 pub mod delaunay;
 pub mod error;
+pub mod format;
 pub mod mesh;
 pub mod number;
 pub mod plc;

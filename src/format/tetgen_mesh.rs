@@ -1,0 +1,360 @@
+//! TetGen's mesh files: `.node`, `.ele`, `.face`, `.edge`.
+//!
+//! Each file is a header, then one numbered line per element; `#` begins a comment, blank lines are skipped.
+//!
+//! | file | header | line |
+//! |---|---|---|
+//! | `.node` | count, 3, number of attributes, whether marked | number, x, y, z, attributes, mark |
+//! | `.ele` | count, 4, number of attributes | number, four vertices, attributes |
+//! | `.face` | count, whether marked | number, three vertices, mark |
+//! | `.edge` | count, whether marked | number, two vertices, mark |
+//!
+//! Source: Si, *TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator*, ACM TOMS 41(2), 2015, and the files that
+//! TetGen 1.5.0 writes. The orientation of tetrahedra in its `.ele` files is ours, det[b−a, c−a, d−a] > 0, so
+//! that vertices keep their order. Time and memory are linear in the size of the files, whatever a header says.
+
+use super::mesh_file::Shortest;
+use super::{MeshFileError, MeshLineError};
+use crate::mesh::{ExportedEdge, ExportedFace, ExportedMesh, VertexId};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// Writes the vertices of a checked mesh.
+pub(super) fn write_node(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
+    writeln!(out, "{} 3 0 0", mesh.vertices.len())?;
+    for (number, p) in numbered(mesh, &mesh.vertices) {
+        let [x, y, z] = p.map(Shortest);
+        writeln!(out, "{number} {x} {y} {z}")?;
+    }
+    Ok(())
+}
+
+/// Writes the tetrahedra of a checked mesh.
+pub(super) fn write_ele(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
+    let attributes = usize::from(!mesh.regions.is_empty());
+    writeln!(out, "{} 4 {attributes}", mesh.tets.len())?;
+    for (i, (number, tet)) in numbered(mesh, &mesh.tets).enumerate() {
+        write!(out, "{number}")?;
+        write_vertices(out, mesh, tet)?;
+        if let Some(&region) = mesh.regions.get(i) {
+            write!(out, " {}", Shortest(region))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// Writes the faces of a checked mesh.
+pub(super) fn write_face(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
+    writeln!(out, "{} 1", mesh.faces.len())?;
+    for (number, face) in numbered(mesh, &mesh.faces) {
+        write!(out, "{number}")?;
+        write_vertices(out, mesh, &face.vertices)?;
+        writeln!(out, " {}", face.marker)?;
+    }
+    Ok(())
+}
+
+/// Writes the edges of a checked mesh.
+pub(super) fn write_edge(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
+    writeln!(out, "{} 1", mesh.edges.len())?;
+    for (number, edge) in numbered(mesh, &mesh.edges) {
+        write!(out, "{number}")?;
+        write_vertices(out, mesh, &edge.vertices)?;
+        writeln!(out, " {}", edge.marker)?;
+    }
+    Ok(())
+}
+
+fn numbered<'a, T>(mesh: &ExportedMesh, items: &'a [T]) -> impl Iterator<Item = (u64, &'a T)> {
+    (u64::from(mesh.first_index)..).zip(items)
+}
+
+fn write_vertices(
+    out: &mut dyn Write,
+    mesh: &ExportedMesh,
+    vertices: &[VertexId],
+) -> io::Result<()> {
+    for v in vertices {
+        write!(out, " {}", u64::from(mesh.first_index) + u64::from(v.0))?;
+    }
+    Ok(())
+}
+
+/// Reads the four files of the stem of `path`; the last two may be missing.
+pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
+    let node = Source::open(path.with_extension("node"))?;
+    let (first_index, vertices) = read_node(&node)?;
+    let numbering = Numbering {
+        first: first_index,
+        count: vertices.len(),
+    };
+    let (tets, regions) = read_ele(&Source::open(path.with_extension("ele"))?, numbering)?;
+    let faces = match Source::open_if_exists(path.with_extension("face"))? {
+        Some(source) => read_marked(&source, |line, marker| {
+            let vertices = numbering.vertices(line)?;
+            let marker = marker.read(line)?;
+            Ok(ExportedFace { vertices, marker })
+        })?,
+        None => Vec::new(),
+    };
+    let edges = match Source::open_if_exists(path.with_extension("edge"))? {
+        Some(source) => read_marked(&source, |line, marker| {
+            let vertices = numbering.vertices(line)?;
+            let marker = marker.read(line)?;
+            Ok(ExportedEdge { vertices, marker })
+        })?,
+        None => Vec::new(),
+    };
+    Ok(ExportedMesh {
+        first_index,
+        vertices,
+        tets,
+        regions,
+        faces,
+        edges,
+    })
+}
+
+/// The first index (0 for a file without vertices) and the coordinates.
+fn read_node(source: &Source) -> Result<(u32, Vec<[f64; 3]>), MeshFileError> {
+    let header = |line: &mut Line| {
+        let count = line.number("the number of vertices")?;
+        if u32::try_from(count).is_err() {
+            return Err(MeshLineError::TooManyVertices(count));
+        }
+        match line.number_or("the dimension", 3)? {
+            3 => Ok((count, ())),
+            dimension => Err(MeshLineError::Dimension(dimension)),
+        }
+    };
+    let mut first = 0;
+    let mut expected = None;
+    let vertices = source.table(header, |line, ()| {
+        let found: i64 = line.number("the vertex number")?;
+        match expected {
+            None if found == 0 || found == 1 => first = u32::from(found == 1),
+            Some(expected) if found == expected => {}
+            _ => {
+                let expected = expected.unwrap_or(1);
+                return Err(MeshLineError::VertexNumber { found, expected });
+            }
+        }
+        expected = Some(found + 1);
+        Ok([line.finite("x")?, line.finite("y")?, line.finite("z")?])
+    })?;
+    Ok((first, vertices))
+}
+
+type TetsAndRegions = (Vec<[VertexId; 4]>, Vec<f64>);
+
+fn read_ele(source: &Source, numbering: Numbering) -> Result<TetsAndRegions, MeshFileError> {
+    let header = |line: &mut Line| {
+        let count = line.number("the number of tetrahedra")?;
+        match line.number_or("the number of nodes per tetrahedron", 4)? {
+            4 => Ok((count, line.number_or("the number of attributes", 0usize)?)),
+            nodes => Err(MeshLineError::NodesPerTet(nodes)),
+        }
+    };
+    let mut regions = Vec::new();
+    let tets = source.table(header, |line, &attributes| {
+        let _number: i64 = line.number("the tetrahedron number")?;
+        let tet = numbering.vertices(line)?;
+        let mut region = None;
+        for _ in 0..attributes {
+            region = Some(line.finite("an attribute")?);
+        }
+        regions.extend(region);
+        Ok(tet)
+    })?;
+    Ok((tets, regions))
+}
+
+/// A `.face` or `.edge` file, with the columns after the mark ignored.
+fn read_marked<T>(
+    source: &Source,
+    read: impl Fn(&mut Line, Marker) -> Result<T, MeshLineError>,
+) -> Result<Vec<T>, MeshFileError> {
+    let header = |line: &mut Line| {
+        let count = line.number("the number of elements")?;
+        let marked: i64 = line.number_or("the flag of markers", 0)?;
+        Ok((count, Marker { given: marked != 0 }))
+    };
+    source.table(header, |line, &marker| {
+        let _number: i64 = line.number("the element number")?;
+        read(line, marker)
+    })
+}
+
+/// Whether the lines of a file end in a marker.
+#[derive(Clone, Copy)]
+struct Marker {
+    given: bool,
+}
+
+impl Marker {
+    fn read(self, line: &mut Line) -> Result<i32, MeshLineError> {
+        if self.given {
+            line.number("the marker")
+        } else {
+            Ok(0)
+        }
+    }
+}
+
+/// How the vertices are numbered: first, first + 1, …, first + count − 1.
+#[derive(Clone, Copy)]
+struct Numbering {
+    first: u32,
+    count: usize,
+}
+
+impl Numbering {
+    fn vertices<const N: usize>(self, line: &mut Line) -> Result<[VertexId; N], MeshLineError> {
+        let mut vertices = [VertexId(0); N];
+        for v in &mut vertices {
+            let found: i64 = line.number("a vertex")?;
+            let id = found
+                .checked_sub(i64::from(self.first))
+                .and_then(|i| u32::try_from(i).ok());
+            let id = id.map(VertexId).filter(|id| id.index() < self.count);
+            *v = id.ok_or(MeshLineError::NoSuchVertex {
+                found,
+                first: self.first,
+                count: self.count,
+            })?;
+        }
+        Ok(vertices)
+    }
+}
+
+/// A file in memory.
+struct Source {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl Source {
+    fn open(path: PathBuf) -> Result<Source, MeshFileError> {
+        match std::fs::read(&path) {
+            Ok(bytes) => Ok(Source { path, bytes }),
+            Err(source) => Err(MeshFileError::Io { path, source }),
+        }
+    }
+
+    fn open_if_exists(path: PathBuf) -> Result<Option<Source>, MeshFileError> {
+        match Source::open(path) {
+            Err(MeshFileError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
+                Ok(None)
+            }
+            result => result.map(Some),
+        }
+    }
+
+    /// Reads the header, which returns the count of the lines to follow, and then each of them.
+    fn table<H, T>(
+        &self,
+        header: impl FnOnce(&mut Line) -> Result<(usize, H), MeshLineError>,
+        mut row: impl FnMut(&mut Line, &H) -> Result<T, MeshLineError>,
+    ) -> Result<Vec<T>, MeshFileError> {
+        let mut number = 1;
+        let at = |line, reason| MeshFileError::Line {
+            path: self.path.clone(),
+            line,
+            reason,
+        };
+        let mut lines = self
+            .bytes
+            .split(|&b| b == b'\n')
+            .enumerate()
+            .filter_map(|(i, bytes)| {
+                let text = bytes
+                    .split(|&b| b == b'#')
+                    .next()
+                    .unwrap_or_default()
+                    .trim_ascii();
+                (!text.is_empty()).then_some((i + 1, Line { rest: text }))
+            });
+        let (first, mut line) = lines.next().ok_or_else(|| at(1, MeshLineError::NoHeader))?;
+        let (promised, header) = header(&mut line).map_err(|reason| at(first, reason))?;
+        // Not Vec::with_capacity(promised): a header may promise anything.
+        let mut rows = Vec::new();
+        for (i, mut line) in lines {
+            number = i;
+            if rows.len() == promised {
+                return Err(at(i, MeshLineError::TooManyLines { promised }));
+            }
+            rows.push(row(&mut line, &header).map_err(|reason| at(i, reason))?);
+        }
+        if rows.len() < promised {
+            let found = rows.len();
+            return Err(at(
+                number.max(first),
+                MeshLineError::TooFewLines { promised, found },
+            ));
+        }
+        Ok(rows)
+    }
+}
+
+/// What is left of a line: fields between blanks (or commas, which TetGen takes as well).
+struct Line<'a> {
+    rest: &'a [u8],
+}
+
+impl<'a> Line<'a> {
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let blank = |b: &u8| b.is_ascii_whitespace() || *b == b',';
+        let start = self.rest.iter().position(|b| !blank(b))?;
+        let rest = &self.rest[start..];
+        let end = rest.iter().position(blank).unwrap_or(rest.len());
+        let (field, rest) = rest.split_at(end);
+        self.rest = rest;
+        Some(field)
+    }
+
+    fn number<T: FromStr>(&mut self, what: &'static str) -> Result<T, MeshLineError> {
+        let field = self.next().ok_or(MeshLineError::Missing(what))?;
+        parse(field, what)
+    }
+
+    /// A field at the end of a header that may be left out.
+    fn number_or<T: FromStr>(
+        &mut self,
+        what: &'static str,
+        default: T,
+    ) -> Result<T, MeshLineError> {
+        self.next().map_or(Ok(default), |field| parse(field, what))
+    }
+
+    fn finite(&mut self, what: &'static str) -> Result<f64, MeshLineError> {
+        let field = self.next().ok_or(MeshLineError::Missing(what))?;
+        let x: f64 = parse(field, what)?;
+        if x.is_finite() {
+            Ok(x)
+        } else {
+            let found = shown(field);
+            Err(MeshLineError::NotFinite { what, found })
+        }
+    }
+}
+
+fn parse<T: FromStr>(field: &[u8], what: &'static str) -> Result<T, MeshLineError> {
+    let number = std::str::from_utf8(field)
+        .ok()
+        .and_then(|text| text.parse().ok());
+    number.ok_or_else(|| {
+        let found = shown(field);
+        MeshLineError::BadNumber { what, found }
+    })
+}
+
+/// A field for a message, cut where it gets long.
+fn shown(field: &[u8]) -> String {
+    let text = String::from_utf8_lossy(field);
+    text.chars()
+        .take(40)
+        .flat_map(char::escape_default)
+        .collect()
+}
