@@ -6,3 +6,4 @@ pub mod mesh;
 pub mod number;
 pub mod plc;
 pub mod predicate;
+pub mod verify;
