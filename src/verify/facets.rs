@@ -1,0 +1,373 @@
+//! Every facet is a union of mesh faces.
+//!
+//! Facets that share merged edges ([`super::segments`]) form a group. The *candidates* are the mesh faces whose centroid
+//! is inside the projected area of the group and whose vertices are vertices of it: its input vertices, vertices of the
+//! chains that replace its edges, any vertex exactly on its plane, and Steiner points within the tolerance of the plane
+//! (for facets that are not flat, within the distance of their own vertices from it). They are found by a flood over mesh
+//! faces that starts at the edges of the group.
+//!
+//! A set S of candidates *covers* the group if, exactly,
+//! - one face of S is at each edge of the boundary of the group, and two at every other edge of S, and
+//! - the projected areas of the faces of S add up to the projected area of the group.
+//!
+//! The boundary makes the sum of *signed* areas equal to that of the group, so that the second condition holds iff no
+//! face of S is turned over: S is projected one to one onto the group. In a flat facet without rounded points all
+//! candidates together are the only choice. Nearly flat vertices permit thin tetrahedra between candidates ("shims": all four
+//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh, all candidates, those
+//! above all shims, those below all shims.
+//!
+//! A part of a facet (a cell of [`Area`]) is outside the domain, and exempt, if no candidate lies in it and a step from
+//! one of its convex corners into it enters no tetrahedron. The facets of a PLC intersect in common segments only, so that
+//! a part is inside or outside as a whole. Exempt parts go to [`super::domain`], as they must not enclose anything.
+
+use super::planar::{Area, distinct};
+use super::segments::{Fate, axes_of};
+use super::tables::sorted2;
+use super::{Case, Findings, Violation};
+use crate::mesh::VertexId;
+use crate::number::{Dyadic, Exact, Number};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
+
+/// A part of a facet outside the domain.
+pub(super) struct OutsidePart {
+    /// The facet.
+    pub(super) facet: usize,
+    /// Three points of its plane, counterclockwise where the boundary has the part on its left.
+    pub(super) frame: [VertexId; 3],
+    /// Directed edges with the part to their left.
+    pub(super) boundary: Vec<[VertexId; 2]>,
+}
+
+/// Which faces cover the facets.
+pub(super) struct Cover {
+    /// For each mesh face, whether it is one of those that cover a facet.
+    pub(super) constrained: Vec<bool>,
+    /// A facet for each candidate.
+    pub(super) facet_of: FxHashMap<usize, usize>,
+    /// The exempt parts.
+    pub(super) outside: Vec<OutsidePart>,
+}
+
+/// Covers all facets.
+pub(super) fn check(case: &Case, fates: &[Fate], findings: &mut Findings) -> Cover {
+    let mut cover = Cover {
+        constrained: vec![false; case.tables.faces.len()],
+        facet_of: FxHashMap::default(),
+        outside: Vec::new(),
+    };
+    let listed: FxHashSet<usize> = case
+        .mesh
+        .faces
+        .iter()
+        .filter_map(|f| case.tables.find_face(f.vertices))
+        .collect();
+    for group in groups(case, fates) {
+        findings.counts.facet_groups += 1;
+        if let Some(face) = same_face(case, fates, &group) {
+            findings.counts.facets += 1;
+            cover.constrained[face] = true;
+            continue;
+        }
+        match Group::new(case, fates, group) {
+            Some(group) => group.check(&listed, &mut cover, findings),
+            None => findings.counts.facets_degenerate += 1,
+        }
+    }
+    findings.counts.constrained_faces = cover.constrained.iter().filter(|&&c| c).count();
+    cover
+}
+
+/// The facets joined by merged edges, each group in increasing order, the groups by their first facet.
+fn groups(case: &Case, fates: &[Fate]) -> Vec<Vec<usize>> {
+    let mut leader: Vec<usize> = (0..case.input.facets.len()).collect();
+    fn find(leader: &mut [usize], mut f: usize) -> usize {
+        while leader[f] != f {
+            leader[f] = leader[leader[f]];
+            f = leader[f];
+        }
+        f
+    }
+    for (edge, fate) in case.input.edges.iter().zip(fates) {
+        if let (Fate::Merged, [f, g]) = (fate, &edge.facets[..]) {
+            let (f, g) = (find(&mut leader, *f), find(&mut leader, *g));
+            leader[f.max(g)] = f.min(g);
+        }
+    }
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for f in 0..leader.len() {
+        groups.entry(find(&mut leader, f)).or_default().push(f);
+    }
+    groups.into_values().collect()
+}
+
+/// The frequent case: the facet is a triangle, and a mesh face.
+fn same_face(case: &Case, fates: &[Fate], group: &[usize]) -> Option<usize> {
+    let [f] = group else { return None };
+    let facet = &case.input.facets[*f];
+    let [a, b, c] = facet.vertices[..] else {
+        return None;
+    };
+    let whole = facet.edges.len() == 3 && facet.holes.is_empty();
+    let direct = facet
+        .edges
+        .iter()
+        .all(|&e| matches!(&fates[e], Fate::Chain(chain) if chain.len() == 2));
+    case.tables.find_face([a, b, c]).filter(|_| whole && direct)
+}
+
+/// One facet, or several that were merged.
+struct Group<'a> {
+    case: &'a Case<'a>,
+    facets: Vec<usize>,
+    axes: [usize; 2],
+    areas: Vec<Area<'a>>,
+    /// All edges with their chains in place.
+    edges: Vec<[VertexId; 2]>,
+    vertices: FxHashSet<VertexId>,
+}
+
+/// How a set of faces fails to cover a group.
+enum Misfit {
+    Edge([VertexId; 2], usize, usize),
+    Area(f64, f64),
+}
+
+impl<'a> Group<'a> {
+    fn new(case: &'a Case<'a>, fates: &[Fate], facets: Vec<usize>) -> Option<Group<'a>> {
+        let frame = facets.iter().find_map(|&f| case.input.facets[f].frame)?;
+        let axes = axes_of(case, frame)?;
+        let edges_of = |f: usize| {
+            let edges = case.input.facets[f].edges.iter();
+            distinct(edges.flat_map(|&e| fates[e].edges(case.input.edges[e].ends)))
+        };
+        let areas = facets
+            .iter()
+            .map(|&f| {
+                Area::new(
+                    case.points,
+                    axes,
+                    &edges_of(f),
+                    &case.input.facets[f].holes,
+                )
+            })
+            .collect();
+        let edges = distinct(facets.iter().flat_map(|&f| edges_of(f)));
+        let own = facets
+            .iter()
+            .flat_map(|&f| case.input.facets[f].vertices.iter().copied());
+        let vertices = own.chain(edges.iter().flatten().copied()).collect();
+        Some(Group {
+            case,
+            facets,
+            axes,
+            areas,
+            edges,
+            vertices,
+        })
+    }
+
+    fn check(mut self, listed: &FxHashSet<usize>, cover: &mut Cover, findings: &mut Findings) {
+        let candidates = self.candidates();
+        for &f in &candidates {
+            cover.facet_of.entry(f).or_insert(self.facets[0]);
+        }
+        self.exempt(&candidates, cover, findings);
+        let choices = [
+            candidates
+                .iter()
+                .copied()
+                .filter(|f| listed.contains(f))
+                .collect(),
+            candidates.clone(),
+            self.beyond_shims(&candidates, true),
+            self.beyond_shims(&candidates, false),
+        ];
+        let mut first_misfit = None;
+        for (i, choice) in choices.into_iter().enumerate() {
+            match self.misfit(&choice) {
+                None => {
+                    findings.counts.facets += self.facets.len();
+                    findings.counts.facets_rounded += usize::from(self.is_rounded(&choice));
+                    for face in choice {
+                        cover.constrained[face] = true;
+                    }
+                    return;
+                }
+                // Of the failures, that of all candidates says most.
+                Some(misfit) if i == 1 => first_misfit = Some(misfit),
+                Some(_) => {}
+            }
+        }
+        let facets = self.facets.clone();
+        findings.report(match first_misfit.expect("all candidates were tried") {
+            Misfit::Edge(edge, faces, expected) => Violation::FacetNotCovered {
+                facets,
+                edge: edge.map(|v| self.case.place(v)),
+                faces,
+                expected,
+            },
+            Misfit::Area(covered, area) => Violation::FacetArea {
+                facets,
+                covered,
+                area,
+            },
+        });
+    }
+
+    /// The candidate faces, sorted.
+    fn candidates(&self) -> Vec<usize> {
+        let tables = &self.case.tables;
+        let barrier: FxHashSet<[VertexId; 2]> = self.edges.iter().copied().collect();
+        let mut accepted = FxHashMap::default();
+        let mut seen = FxHashSet::default();
+        let mut found = Vec::new();
+        let mut stack = self.edges.clone();
+        while let Some(edge) = stack.pop() {
+            for f in tables.fan(edge) {
+                let key = tables.faces[f].key;
+                if seen.contains(&f) || !key.iter().all(|&v| self.accepts(v, &mut accepted)) {
+                    continue;
+                }
+                seen.insert(f);
+                if self
+                    .areas
+                    .iter()
+                    .any(|area| area.is_kept(area.cell_at(&key)))
+                {
+                    found.push(f);
+                    let [a, b, c] = key;
+                    stack.extend(
+                        [[a, b], [b, c], [a, c]]
+                            .into_iter()
+                            .filter(|e| !barrier.contains(e)),
+                    );
+                }
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+
+    fn accepts(&self, v: VertexId, memory: &mut FxHashMap<VertexId, bool>) -> bool {
+        let on_plane = || {
+            self.facets.iter().any(|&f| {
+                let facet = &self.case.input.facets[f];
+                let Some([a, b, c]) = facet.frame else {
+                    return false;
+                };
+                let tolerance = self.case.tolerance + facet.bulge;
+                self.case.points.orient([a, b, c, v]).is_zero()
+                    || (!self.case.input.is_site(v)
+                        && self.case.points.near_plane([a, b, c], v, tolerance))
+            })
+        };
+        self.vertices.contains(&v) || *memory.entry(v).or_insert_with(on_plane)
+    }
+
+    /// Takes the parts outside the domain out of the areas.
+    fn exempt(&mut self, candidates: &[usize], cover: &mut Cover, findings: &mut Findings) {
+        for i in 0..self.areas.len() {
+            let area = &mut self.areas[i];
+            let filled: FxHashSet<usize> = candidates
+                .iter()
+                .map(|&f| area.cell_at(&self.case.tables.faces[f].key))
+                .collect();
+            for cell in area.kept_cells() {
+                if filled.contains(&cell) {
+                    continue;
+                }
+                let Some(corner) = area.corner(cell) else {
+                    continue;
+                };
+                let [before, v, after] = corner;
+                if !self.case.tables.is_used(v) || !self.case.locator.enters(v, &[before, after]) {
+                    findings.counts.facet_parts_outside += 1;
+                    cover.outside.push(OutsidePart {
+                        facet: self.facets[i],
+                        frame: corner,
+                        boundary: area.edges_around(cell),
+                    });
+                    area.drop_cell(cell);
+                }
+            }
+        }
+    }
+
+    /// The candidates that have no shim above (or below) them.
+    fn beyond_shims(&self, candidates: &[usize], above: bool) -> Vec<usize> {
+        let tables = &self.case.tables;
+        let mut faces_of: FxHashMap<u32, u8> = FxHashMap::default();
+        let sides = |f: usize| {
+            tables.faces[f]
+                .sides
+                .into_iter()
+                .take(tables.faces[f].tets as usize)
+        };
+        for side in candidates.iter().flat_map(|&f| sides(f)) {
+            *faces_of.entry(side.0).or_default() += 1;
+        }
+        let is_above = |side| {
+            self.case
+                .points
+                .orient2d(self.axes, tables.inward(side))
+                .is_positive()
+        };
+        let blocked =
+            |&f: &usize| sides(f).any(|side| faces_of[&side.0] == 4 && is_above(side) == above);
+        candidates.iter().copied().filter(|f| !blocked(f)).collect()
+    }
+
+    /// Why the faces do not cover the group, if they do not.
+    fn misfit(&self, faces: &[usize]) -> Option<Misfit> {
+        let mut expected: BTreeMap<[VertexId; 2], usize> = BTreeMap::new();
+        for edge in self.areas.iter().flat_map(Area::boundary) {
+            // An edge between two facets of the group is in the boundary of both.
+            *expected.entry(sorted2(edge)).or_insert(0) += 1;
+        }
+        let mut found: BTreeMap<[VertexId; 2], usize> = expected.keys().map(|&e| (e, 0)).collect();
+        for [a, b, c] in faces.iter().map(|&f| self.case.tables.faces[f].key) {
+            for edge in [[a, b], [b, c], [a, c]] {
+                *found.entry(edge).or_insert(0) += 1;
+            }
+        }
+        for (&edge, &faces) in &found {
+            match expected.get(&edge) {
+                Some(1) if faces != 1 => return Some(Misfit::Edge(edge, faces, 1)),
+                Some(2) if faces == 0 => {}
+                Some(1) => {}
+                _ if faces != 2 => return Some(Misfit::Edge(edge, faces, 2)),
+                _ => {}
+            }
+        }
+        let covered = faces.iter().fold(Dyadic::ZERO, |sum, &f| {
+            let area = self
+                .case
+                .points
+                .area(self.axes, self.case.tables.faces[f].key);
+            if area.exact_sign().is_negative() {
+                sum - &area
+            } else {
+                sum + &area
+            }
+        });
+        let area = self
+            .areas
+            .iter()
+            .fold(Dyadic::ZERO, |sum, a| sum + &a.twice_area());
+        (covered != area).then(|| Misfit::Area(covered.to_f64() / 2.0, area.to_f64() / 2.0))
+    }
+
+    /// Whether some vertex of the faces is not exactly on the plane, although the input vertices are.
+    fn is_rounded(&self, faces: &[usize]) -> bool {
+        let [f] = self.facets[..] else { return false };
+        let facet = &self.case.input.facets[f];
+        let Some([a, b, c]) = facet.frame.filter(|_| facet.flat) else {
+            return false;
+        };
+        let vertices = faces.iter().flat_map(|&f| self.case.tables.faces[f].key);
+        vertices
+            .into_iter()
+            .any(|v| !self.case.points.orient([a, b, c, v]).is_zero())
+    }
+}

@@ -1,0 +1,218 @@
+//! The PLC in terms of the points of the mesh: every input vertex is the used mesh vertex with the same coordinates, or
+//! a point of its own if there is none.
+
+use super::points::{Points, cross, dot, minus};
+use super::tables::sorted2;
+use crate::mesh::VertexId;
+use crate::plc::Plc;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
+
+/// An edge of facets or a segment given for itself; several coinciding ones are one.
+pub(super) struct InputEdge {
+    /// Its ends, smaller first.
+    pub(super) ends: [VertexId; 2],
+    /// The facets that have it as an edge of one of their polygons, in increasing order.
+    pub(super) facets: Vec<usize>,
+    /// Whether [`Plc::segments`] or a polygon with two vertices lists it.
+    pub(super) explicit: bool,
+}
+
+/// A facet.
+pub(super) struct InputFacet {
+    /// The edges of its polygons by index in [`Input::edges`], without repetition.
+    pub(super) edges: Vec<usize>,
+    /// Its vertices, without repetition.
+    pub(super) vertices: Vec<VertexId>,
+    /// Its hole points.
+    pub(super) holes: Vec<VertexId>,
+    /// Three of its vertices that are not collinear and span a large triangle; none if all are collinear.
+    pub(super) frame: Option<[VertexId; 3]>,
+    /// Whether all vertices lie exactly on the plane of the frame.
+    pub(super) flat: bool,
+    /// The largest distance of a vertex from that plane (rounded; 0 if flat).
+    pub(super) bulge: f64,
+}
+
+/// The PLC.
+pub(super) struct Input {
+    /// The point of each input vertex.
+    pub(super) site_of: Vec<VertexId>,
+    /// Whether a point is an input vertex.
+    pub(super) is_site: Vec<bool>,
+    /// Edges and segments, in order of their ends.
+    pub(super) edges: Vec<InputEdge>,
+    /// The facets, as in the PLC.
+    pub(super) facets: Vec<InputFacet>,
+    /// The points of the hole points.
+    pub(super) holes: Vec<VertexId>,
+    /// The points of the region points.
+    pub(super) regions: Vec<VertexId>,
+}
+
+/// Equal for equal coordinates (−0 is 0).
+pub(super) fn place_key(p: [f64; 3]) -> [u64; 3] {
+    p.map(|x| (x + 0.0).to_bits())
+}
+
+impl Input {
+    /// `used[v]` says whether mesh vertex v is in a tetrahedron. `coordinates` holds those of the mesh vertices, and gets
+    /// the other points of the input.
+    pub(super) fn new(plc: &Plc, used: &[bool], coordinates: Vec<[f64; 3]>) -> (Input, Points) {
+        let mut coordinates = coordinates;
+        let mut at: FxHashMap<[u64; 3], VertexId> = FxHashMap::default();
+        for (v, &p) in coordinates.iter().enumerate() {
+            if used[v] {
+                at.entry(place_key(p)).or_insert(VertexId::new(v));
+            }
+        }
+        let mut add = |p: [f64; 3]| {
+            coordinates.push(p);
+            VertexId::new(coordinates.len() - 1)
+        };
+        let site_of: Vec<VertexId> = plc
+            .vertices
+            .iter()
+            .map(|&p| *at.entry(place_key(p)).or_insert_with(|| add(p)))
+            .collect();
+        let holes = plc.holes.iter().map(|&p| add(p)).collect();
+        let regions = plc.regions.iter().map(|r| add(r.point)).collect();
+        let facet_holes: Vec<Vec<VertexId>> = plc
+            .facets
+            .iter()
+            .map(|f| f.holes.iter().map(|&p| add(p)).collect())
+            .collect();
+        let points = Points::new(coordinates);
+        let mut is_site = vec![
+            false;
+            used.len()
+                .max(site_of.iter().map(|v| v.index() + 1).max().unwrap_or(0))
+        ];
+        for v in &site_of {
+            is_site[v.index()] = true;
+        }
+        let (edges, edges_of) = edges(plc, &site_of);
+        let facets = plc
+            .facets
+            .iter()
+            .zip(edges_of)
+            .zip(facet_holes)
+            .map(|((facet, edges), holes)| {
+                let mut vertices: Vec<VertexId> = facet
+                    .polygons
+                    .iter()
+                    .flatten()
+                    .map(|v| site_of[v.index()])
+                    .collect();
+                vertices.sort_unstable();
+                vertices.dedup();
+                let frame = frame(&points, &vertices);
+                let flat = frame.is_some_and(|[a, b, c]| {
+                    vertices
+                        .iter()
+                        .all(|&v| points.orient([a, b, c, v]).is_zero())
+                });
+                let bulge = frame.filter(|_| !flat).map_or(0.0, |f| {
+                    vertices
+                        .iter()
+                        .fold(0.0f64, |m, &v| m.max(points.distance_to_plane(f, v)))
+                });
+                InputFacet {
+                    edges,
+                    vertices,
+                    holes,
+                    frame,
+                    flat,
+                    bulge,
+                }
+            })
+            .collect();
+        (
+            Input {
+                site_of,
+                is_site,
+                edges,
+                facets,
+                holes,
+                regions,
+            },
+            points,
+        )
+    }
+
+    /// Whether the point is an input vertex.
+    pub(super) fn is_site(&self, v: VertexId) -> bool {
+        self.is_site.get(v.index()).copied().unwrap_or(false)
+    }
+}
+
+/// All edges, and for each facet the indices of its own.
+fn edges(plc: &Plc, site_of: &[VertexId]) -> (Vec<InputEdge>, Vec<Vec<usize>>) {
+    // For each edge: its facets and whether it is listed for itself.
+    let mut found: BTreeMap<[VertexId; 2], (Vec<usize>, bool)> = BTreeMap::new();
+    let key = |a: VertexId, b: VertexId| sorted2([site_of[a.index()], site_of[b.index()]]);
+    for (f, facet) in plc.facets.iter().enumerate() {
+        for polygon in &facet.polygons {
+            let n = polygon.len();
+            // A polygon with two vertices is one edge, and one vertex is none.
+            for i in 0..if n == 2 { 1 } else { n } {
+                let ends = key(polygon[i], polygon[(i + 1) % n]);
+                if ends[0] != ends[1] {
+                    let (facets, explicit) = found.entry(ends).or_default();
+                    if facets.last() != Some(&f) {
+                        facets.push(f);
+                    }
+                    *explicit |= n == 2;
+                }
+            }
+        }
+    }
+    for segment in &plc.segments {
+        let ends = key(segment.ends[0], segment.ends[1]);
+        if ends[0] != ends[1] {
+            found.entry(ends).or_default().1 = true;
+        }
+    }
+    let mut of_facet = vec![Vec::new(); plc.facets.len()];
+    let edges = found
+        .into_iter()
+        .enumerate()
+        .map(|(e, (ends, (facets, explicit)))| {
+            for &f in &facets {
+                of_facet[f].push(e);
+            }
+            InputEdge {
+                ends,
+                facets,
+                explicit,
+            }
+        })
+        .collect();
+    (edges, of_facet)
+}
+
+/// The first vertex, the one farthest from it, and the one that makes the largest triangle with both; exactly not
+/// collinear, or none.
+fn frame(points: &Points, vertices: &[VertexId]) -> Option<[VertexId; 3]> {
+    let (&a, rest) = vertices.split_first()?;
+    let origin = points.at(a);
+    let farthest = |v: &VertexId| {
+        let d = minus(points.at(*v), origin);
+        dot(d, d)
+    };
+    let b = *rest
+        .iter()
+        .max_by(|v, w| farthest(v).total_cmp(&farthest(w)))?;
+    let along = minus(points.at(b), origin);
+    let area = |v: &VertexId| {
+        let n = cross(along, minus(points.at(*v), origin));
+        dot(n, n)
+    };
+    let c = *rest.iter().max_by(|v, w| area(v).total_cmp(&area(w)))?;
+    if !points.collinear([a, b, c]) {
+        return Some([a, b, c]);
+    }
+    // Rounding may have hidden the only vertex off the line.
+    let c = *rest.iter().find(|&&v| !points.collinear([a, b, v]))?;
+    Some([a, b, c])
+}

@@ -1,0 +1,171 @@
+//! The independent check: is this mesh a (Steiner) constrained Delaunay tetrahedralization of that PLC?
+//!
+//! Whoever made the mesh. Constraints are recognised by geometry, and nothing that the mesh says of itself is believed.
+//! Each file below checks one claim; every sign that decides is exact. No code is shared with the predicates' filters,
+//! the recovery or the mesh data structure: only exact numbers and the formulas of the determinants.
+//!
+//! | file | claim |
+//! |---|---|
+//! | `structure` | indices in range, coordinates finite |
+//! | `orientation` | every tetrahedron is positive |
+//! | `adjacency` | faces have one tetrahedron, or one on each side; no two tetrahedra overlap |
+//! | `vertices` | every input vertex in the domain is in the mesh |
+//! | `segments` | every segment is a chain of mesh edges |
+//! | `facets` | every facet is a union of mesh faces |
+//! | `delaunay` | every other face is locally Delaunay |
+//! | `domain`, `hull`, `shells` | the tetrahedra fill the domain: the convex hull, or the inside without holes |
+//! | `regions` | region attributes |
+//!
+//! Premise: the PLC is valid, that is, its facets and segments intersect in common segments and vertices only. (If it
+//! is not, some claim fails, as no mesh can satisfy all of them; but the verdict does not say that this is the reason.)
+//!
+//! Tolerance: Steiner points of other programs, and ours once rounded to doubles, are not exactly on their segments and
+//! facets. [`VerifyOptions::tolerance`] says how far off they may be to count as on them; what they then have to satisfy
+//! is exact. The verdict counts how often this was needed. With tolerance 0 nothing is forgiven.
+
+mod adjacency;
+mod delaunay;
+mod domain;
+mod facets;
+mod hull;
+mod input;
+mod listed;
+mod locate;
+mod orientation;
+mod planar;
+mod points;
+mod regions;
+mod segments;
+mod shells;
+mod structure;
+mod tables;
+mod verdict;
+mod vertices;
+mod violation;
+
+pub use verdict::{Counts, Place, Verdict};
+pub use violation::Violation;
+
+use crate::mesh::{ExportedMesh, VertexId};
+use crate::plc::Plc;
+use input::Input;
+use locate::Locator;
+use points::Points;
+use tables::Tables;
+use verdict::Findings;
+
+/// What the mesh is expected to fill.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Domain {
+    /// The inside if all boundary faces are on facets; otherwise the convex hull if the mesh is convex.
+    #[default]
+    Auto,
+    /// The convex hull of the vertices.
+    Hull,
+    /// What the facets enclose, without the parts that hold a hole point.
+    Inside,
+}
+
+/// How to verify.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VerifyOptions {
+    /// What the mesh is expected to fill.
+    pub domain: Domain,
+    /// How far a Steiner point may be from its segment or facet, in units in the last place of the largest coordinate.
+    pub tolerance: f64,
+    /// If given, facets with one marker may have been merged if the dihedral angle between them is at least this many
+    /// degrees (TetGen: 179.9). Otherwise only exactly coplanar ones.
+    pub merge_angle: Option<f64>,
+    /// How many violations of each kind are listed.
+    pub cap: usize,
+}
+
+impl Default for VerifyOptions {
+    fn default() -> VerifyOptions {
+        VerifyOptions {
+            domain: Domain::Auto,
+            tolerance: 8.0,
+            merge_angle: None,
+            cap: 20,
+        }
+    }
+}
+
+/// What all checks look at.
+struct Case<'a> {
+    plc: &'a Plc,
+    mesh: &'a ExportedMesh,
+    options: VerifyOptions,
+    points: &'a Points,
+    tables: &'a Tables,
+    input: &'a Input,
+    locator: Locator<'a>,
+    /// [`VerifyOptions::tolerance`] as a distance.
+    tolerance: f64,
+}
+
+impl Case<'_> {
+    /// A point with its coordinates.
+    fn place(&self, id: VertexId) -> Place {
+        Place {
+            id,
+            at: self.points.at(id),
+        }
+    }
+
+    /// The point of an input vertex with its index in the input.
+    fn named(&self, input_vertex: usize, point: VertexId) -> Place {
+        Place {
+            id: VertexId::new(input_vertex),
+            at: self.points.at(point),
+        }
+    }
+}
+
+/// Checks that `mesh` is a constrained Delaunay tetrahedralization of `plc`, Steiner points permitted.
+///
+/// O(n log n) for a mesh of n tetrahedra, plus what a facet with m edges costs for each of its faces, O(m).
+pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict {
+    let mut findings = Findings::new(options.cap);
+    structure::check(plc, mesh, &mut findings);
+    if !findings.is_empty() {
+        return findings.verdict();
+    }
+    let mut used = vec![false; mesh.vertices.len()];
+    for v in mesh.tets.iter().flatten() {
+        used[v.index()] = true;
+    }
+    let (input, points) = Input::new(plc, &used, mesh.vertices.clone());
+    let mut tets = mesh.tets.clone();
+    orientation::check(&points, &mut tets, &mut findings);
+    let tables = Tables::new(tets, mesh.vertices.len());
+    let case = Case {
+        plc,
+        mesh,
+        options,
+        points: &points,
+        tables: &tables,
+        input: &input,
+        locator: Locator::new(&points, &tables),
+        tolerance: options.tolerance * ulp(points.largest()),
+    };
+    listed::check(&case, &mut findings);
+    adjacency::check(&case, &mut findings);
+    vertices::check(&case, &mut findings);
+    let fates = segments::check(&case, &mut findings);
+    let cover = facets::check(&case, &fates, &mut findings);
+    delaunay::check(
+        &case,
+        &cover.constrained,
+        |f| cover.facet_of.get(&f).copied(),
+        &mut findings,
+    );
+    domain::check(&case, &fates, &cover, &mut findings);
+    regions::check(&case, &cover.constrained, &mut findings);
+    findings.verdict()
+}
+
+/// The distance from a non-negative double to the next one.
+fn ulp(x: f64) -> f64 {
+    x.next_up() - x
+}

@@ -1,0 +1,311 @@
+//! All points that a check talks about, and the exact signs of their determinants.
+//!
+//! # The shortcut
+//! A determinant is first evaluated in doubles together with the sum P of the absolute values of its terms. With
+//! u = 2⁻⁵³, every computed sum, difference and product is the exact one times (1 + δ), |δ| ≤ u (products that underflow
+//! apart). Multiplied out, the computed determinant is Σ t_i·Π(1 + δ), with n factors at most in each product, where t_i
+//! are the exact terms. So its error is at most ((1+u)ⁿ − 1)·Σ|t_i|, and the computed P is at least (1−u)ⁿ·Σ|t_i|; the
+//! error is at most n·u·(1 + 4nu)·P for n ≤ 2²⁰, and certainly below 2n·u·(computed P), whatever the rounding of that
+//! last product. The number n of factors along the longest path:
+//!
+//! - orient2d, d1·d2 − d3·d4: 2 (two differences) + 1 (product) + 1 (sum) = 4.
+//! - orient3d, expanded by rows: 3 (differences) + 1 (inner product) + 1 (its difference) + 1 (outer product) + 2 (sums) = 8.
+//! - insphere, Σ lift_i·det3_i: lift 2 + 1 + 2 = 5, det3 8, their product 1, sums 3: 17.
+//!
+//! A product that underflows errs by at most 2⁻¹⁰⁷⁵ more. If every coordinate is below 2¹⁰⁰, differences are below
+//! 2¹⁰¹, the factors that multiply such an error are below 2³¹⁰ and there are fewer than 2⁶ of them, so that the total
+//! is below 2⁻⁵⁰⁰. Coordinates beyond 2¹⁰⁰ use no shortcut (which excludes overflow, too: insphere has degree 5).
+//! So |determinant| > 2n·u·P + 2⁻⁵⁰⁰ proves the sign. Everything else, zero in particular, is decided in [`Dyadic`]s.
+
+use crate::mesh::VertexId;
+use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
+use crate::predicate::formula;
+
+/// u = 2⁻⁵³.
+const HALF_ULP: f64 = f64::EPSILON / 2.0;
+
+/// The points: first the vertices of the mesh, then those points of the input (vertices, hole and region points) that
+/// are no mesh vertices. A [`VertexId`] in this module names any of them.
+pub(super) struct Points {
+    coordinates: Vec<[f64; 3]>,
+    shortcut: bool,
+    underflow: f64,
+    largest: f64,
+}
+
+/// The difference of two points, in doubles.
+pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// The cross product, in doubles.
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// The scalar product, in doubles.
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+impl Points {
+    /// Finite coordinates.
+    pub(super) fn new(coordinates: Vec<[f64; 3]>) -> Points {
+        let largest = coordinates
+            .iter()
+            .flatten()
+            .fold(0.0f64, |m, x| m.max(x.abs()));
+        Points {
+            coordinates,
+            shortcut: largest <= 2f64.powi(100),
+            underflow: 2f64.powi(-500),
+            largest,
+        }
+    }
+
+    /// The largest absolute value of a coordinate.
+    pub(super) fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    pub(super) fn at(&self, v: VertexId) -> [f64; 3] {
+        self.coordinates[v.index()]
+    }
+
+    pub(super) fn exact(&self, v: VertexId) -> Vec3<Dyadic> {
+        Vec3::from_f64(self.at(v))
+    }
+
+    fn certain(&self, value: f64, permanent: f64, factors: u32) -> Option<Sign> {
+        let bound = 2.0 * f64::from(factors) * HALF_ULP * permanent + self.underflow;
+        if !self.shortcut {
+            None
+        } else if value > bound {
+            Some(Sign::Positive)
+        } else if value < -bound {
+            Some(Sign::Negative)
+        } else {
+            None
+        }
+    }
+
+    /// det[b−a, c−a, d−a], exactly.
+    pub(super) fn volume(&self, t: [VertexId; 4]) -> Dyadic {
+        let p = t.map(|v| self.exact(v));
+        formula::orient3d(p.each_ref())
+    }
+
+    /// The sign of det[b−a, c−a, d−a].
+    pub(super) fn orient(&self, [a, b, c, d]: [VertexId; 4]) -> Sign {
+        let o = self.at(a);
+        let (value, permanent) = det3([b, c, d].map(|v| minus(self.at(v), o)));
+        self.certain(value, permanent, 8)
+            .unwrap_or_else(|| self.volume([a, b, c, d]).exact_sign())
+    }
+
+    /// Positive iff e is inside the circumsphere of the positive abcd.
+    pub(super) fn insphere(&self, five: [VertexId; 5]) -> Sign {
+        let [a, b, c, d, e] = five;
+        let o = self.at(e);
+        let q = [a, b, c, d].map(|v| minus(self.at(v), o));
+        let lift = q.map(|x| dot(x, x));
+        // As in the formula: the coefficients −O(e,b,c,d), O(e,a,c,d), −O(e,a,b,d), O(e,a,b,c), negated.
+        let minors = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]].map(|i| det3(i.map(|k| q[k])));
+        let value = (lift[0] * minors[0].0 + lift[2] * minors[2].0)
+            - (lift[1] * minors[1].0 + lift[3] * minors[3].0);
+        let permanent = (0..4).map(|i| lift[i] * minors[i].1).sum();
+        self.certain(value, permanent, 17).unwrap_or_else(|| {
+            let p = five.map(|v| self.exact(v));
+            formula::insphere(p.each_ref()).exact_sign()
+        })
+    }
+
+    /// The sign of the average of orient(a, b, c, q) over the points q: the side of the plane abc on which their
+    /// centroid lies.
+    pub(super) fn side(&self, [a, b, c]: [VertexId; 3], q: &[VertexId]) -> Sign {
+        sum_of_signs(
+            q,
+            |v| self.orient([a, b, c, v]),
+            |v| self.volume([a, b, c, v]),
+        )
+    }
+
+    /// Twice the signed area of abc in the plane of the two axes, exactly.
+    pub(super) fn area(&self, axes: [usize; 2], [a, b, c]: [VertexId; 3]) -> Dyadic {
+        let [a, b, c] = [a, b, c].map(|v| axes.map(|i| Dyadic::from_f64(self.at(v)[i])));
+        let d = |p: &[Dyadic; 2], i: usize| p[i].clone() - &a[i];
+        d(&b, 0) * &d(&c, 1) - &(d(&b, 1) * &d(&c, 0))
+    }
+
+    /// The sign of [`Points::area`].
+    pub(super) fn orient2d(&self, axes: [usize; 2], [a, b, c]: [VertexId; 3]) -> Sign {
+        let [p, q, r] = [a, b, c].map(|v| axes.map(|i| self.at(v)[i]));
+        let left = (q[0] - p[0]) * (r[1] - p[1]);
+        let right = (q[1] - p[1]) * (r[0] - p[0]);
+        self.certain(left - right, left.abs() + right.abs(), 4)
+            .unwrap_or_else(|| self.area(axes, [a, b, c]).exact_sign())
+    }
+
+    /// The side of the line ab on which the centroid of the points q lies.
+    pub(super) fn side2d(&self, axes: [usize; 2], [a, b]: [VertexId; 2], q: &[VertexId]) -> Sign {
+        sum_of_signs(
+            q,
+            |v| self.orient2d(axes, [a, b, v]),
+            |v| self.area(axes, [a, b, v]),
+        )
+    }
+
+    /// How a coordinate of the centroid of the points q compares with that of v.
+    pub(super) fn compare(&self, axis: usize, q: &[VertexId], v: VertexId) -> Sign {
+        let x = self.at(v)[axis];
+        sum_of_signs(
+            q,
+            |w| Sign::of_f64(self.at(w)[axis] - x).expect("coordinates are finite"),
+            |w| Dyadic::from_f64(self.at(w)[axis]) - &Dyadic::from_f64(x),
+        )
+    }
+
+    /// Whether three points are exactly collinear.
+    pub(super) fn collinear(&self, t: [VertexId; 3]) -> bool {
+        [[0, 1], [1, 2], [2, 0]]
+            .iter()
+            .all(|&axes| self.orient2d(axes, t).is_zero())
+    }
+
+    /// Whether v is within `tolerance` of the line ab: |(b−a)×(v−a)|² ≤ tolerance²·|b−a|², exactly.
+    pub(super) fn near_line(&self, [a, b]: [VertexId; 2], v: VertexId, tolerance: f64) -> bool {
+        let (pa, pb, pv) = (self.at(a), self.at(b), self.at(v));
+        // Far away beyond all doubt (the rounding error of this distance is a few ulp of the coordinates).
+        let (along, away) = (minus(pb, pa), minus(pv, pa));
+        let moment = cross(along, away);
+        let rounding = 64.0 * f64::EPSILON * self.largest;
+        if dot(moment, moment).sqrt() > 2.0 * (tolerance + rounding) * dot(along, along).sqrt() {
+            return false;
+        }
+        let [a, b, v] = [a, b, v].map(|p| self.exact(p));
+        let along = b.sub(&a);
+        let moment = along.cross(&v.sub(&a));
+        self.within(moment.dot(&moment), along.dot(&along), tolerance)
+    }
+
+    /// Whether v is within `tolerance` of the plane abc: det² ≤ tolerance²·|normal|², exactly.
+    pub(super) fn near_plane(&self, [a, b, c]: [VertexId; 3], v: VertexId, tolerance: f64) -> bool {
+        let distance = self.distance_to_plane([a, b, c], v);
+        if distance > 2.0 * tolerance + 64.0 * f64::EPSILON * self.largest {
+            return false;
+        }
+        let [a, b, c, v] = [a, b, c, v].map(|p| self.exact(p));
+        let normal = b.sub(&a).cross(&c.sub(&a));
+        let height = normal.dot(&v.sub(&a));
+        self.within(height.clone() * &height, normal.dot(&normal), tolerance)
+    }
+
+    /// The distance of v from the plane abc, rounded.
+    pub(super) fn distance_to_plane(&self, [a, b, c]: [VertexId; 3], v: VertexId) -> f64 {
+        let (a, b, c, v) = (self.at(a), self.at(b), self.at(c), self.at(v));
+        let normal = cross(minus(b, a), minus(c, a));
+        dot(normal, minus(v, a)).abs() / dot(normal, normal).sqrt()
+    }
+
+    fn within(&self, square: Dyadic, unit: Dyadic, tolerance: f64) -> bool {
+        let t = Dyadic::from_f64(tolerance);
+        !(square - &(t.clone() * &t * &unit))
+            .exact_sign()
+            .is_positive()
+    }
+}
+
+/// The determinant of three rows and the sum of the absolute values of its terms.
+fn det3([a, b, c]: [[f64; 3]; 3]) -> (f64, f64) {
+    let mut value = [0.0; 3];
+    let mut permanent = 0.0;
+    for i in 0..3 {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let (left, right) = (b[j] * c[k], b[k] * c[j]);
+        value[i] = a[i] * (left - right);
+        permanent += a[i].abs() * (left.abs() + right.abs());
+    }
+    (value[0] + value[1] + value[2], permanent)
+}
+
+/// The sign of Σ value(q): known without arithmetic if no two signs are opposite.
+fn sum_of_signs(
+    q: &[VertexId],
+    sign: impl Fn(VertexId) -> Sign,
+    value: impl Fn(VertexId) -> Dyadic,
+) -> Sign {
+    let mut seen = Sign::Zero;
+    for &v in q {
+        let s = sign(v);
+        if s.is_zero() {
+            continue;
+        }
+        if seen.is_zero() {
+            seen = s;
+        } else if seen != s {
+            return q
+                .iter()
+                .fold(Dyadic::ZERO, |sum, &w| sum + &value(w))
+                .exact_sign();
+        }
+    }
+    seen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Grid points make many zeros; tiny offsets make many near-zeros.
+    fn coordinate() -> impl Strategy<Value = f64> {
+        (-3i32..4, -2i32..3).prop_map(|(i, k)| f64::from(i) * 0.1 + f64::from(k) * 1e-16)
+    }
+
+    proptest! {
+        /// The shortcut never contradicts the exact number.
+        #[test]
+        fn shortcut_is_exact(p in prop::collection::vec([coordinate(), coordinate(), coordinate()], 5)) {
+            let points = Points::new(p);
+            let v = [0, 1, 2, 3, 4].map(VertexId::new);
+            let e = v.map(|i| points.exact(i));
+            let [a, b, c, d, _] = v;
+            prop_assert_eq!(points.orient([a, b, c, d]), points.volume([a, b, c, d]).exact_sign());
+            prop_assert_eq!(points.insphere(v), formula::insphere(e.each_ref()).exact_sign());
+            prop_assert_eq!(points.orient2d([1, 2], [a, b, c]), points.area([1, 2], [a, b, c]).exact_sign());
+        }
+    }
+
+    #[test]
+    fn centroid_decides_the_side() {
+        let points = Points::new(vec![
+            [0., 0., 0.],
+            [1., 0., 0.],
+            [0., 1., 0.],
+            [0., 0., 2.],
+            [0., 0., -1.],
+            [5., 5., -1.],
+        ]);
+        let [a, b, c, up, down, far] = [0, 1, 2, 3, 4, 5].map(VertexId::new);
+        assert_eq!(points.side([a, b, c], &[up, down]), Sign::Positive);
+        assert_eq!(points.side([a, b, c], &[up, down, far]), Sign::Zero);
+        assert_eq!(points.side([a, b, c], &[down, far]), Sign::Negative);
+    }
+
+    #[test]
+    fn distances_are_compared_exactly() {
+        let points = Points::new(vec![
+            [0., 0., 0.],
+            [4., 0., 0.],
+            [0., 4., 0.],
+            [1., 0., 0.25],
+        ]);
+        let [a, b, c, v] = [0, 1, 2, 3].map(VertexId::new);
+        assert!(points.near_line([a, b], v, 0.25) && points.near_plane([a, b, c], v, 0.25));
+        assert!(!points.near_line([a, b], v, 0.2499) && !points.near_plane([a, b, c], v, 0.2499));
+    }
+}

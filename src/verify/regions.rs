@@ -1,0 +1,34 @@
+//! Region attributes: constant up to constrained faces, and as the region points say. Only where the mesh has any.
+
+use super::{Case, Findings, Violation};
+
+pub(super) fn check(case: &Case, constrained: &[bool], findings: &mut Findings) {
+    let attributes = &case.mesh.regions;
+    if attributes.is_empty() {
+        return;
+    }
+    for (f, face) in case.tables.faces.iter().enumerate() {
+        let tets = face.sides.map(|side| side.0 as usize);
+        let found = tets.map(|t| attributes[t]);
+        if face.tets == 2 && !constrained[f] && found[0] != found[1] {
+            findings.report(Violation::RegionLeaks {
+                tets,
+                attributes: found,
+            });
+        }
+    }
+    for (i, (region, &point)) in case.plc.regions.iter().zip(&case.input.regions).enumerate() {
+        // A point on a face between two regions names either.
+        let around = case.locator.containing(&[point]);
+        let Some(&tet) = around.first() else { continue };
+        findings.counts.regions += 1;
+        if around.iter().all(|&t| attributes[t] != region.attribute) {
+            findings.report(Violation::WrongRegion {
+                region: i,
+                tet,
+                expected: region.attribute,
+                found: attributes[tet],
+            });
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Every segment, and every edge of a facet, is a chain of mesh edges from end to end.
+//!
+//! The chain may pass through any vertex that is exactly on the segment, and through vertices that are not of the input
+//! (Steiner points) within [`super::VerifyOptions::tolerance`] of it, since their coordinates are rounded. It is found by a
+//! walk from one end along mesh edges, always forward in the segment's dominant coordinate.
+//!
+//! Three exceptions, all counted: an edge that two coplanar facets with the same marker share on opposite sides may have
+//! been merged away (unless it is listed as a segment); a segment with an end that is not in the domain, or that leaves
+//! the domain from both of its ends, is outside of the part that was kept; everything else is missing.
+
+use super::planar::Area;
+use super::points::{cross, dot, minus};
+use super::tables::sorted2;
+use super::{Case, Findings, Violation};
+use crate::mesh::VertexId;
+
+/// What became of a segment.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Fate {
+    /// It is this chain of vertices.
+    Chain(Vec<VertexId>),
+    /// It is gone because the two facets at it are one.
+    Merged,
+    /// It lies outside the domain.
+    Outside,
+    /// It should be there and is not.
+    Missing,
+}
+
+impl Fate {
+    /// The edges in its place.
+    pub(super) fn edges(&self, ends: [VertexId; 2]) -> Vec<[VertexId; 2]> {
+        match self {
+            Fate::Chain(chain) => chain.windows(2).map(|w| sorted2([w[0], w[1]])).collect(),
+            _ => vec![ends],
+        }
+    }
+}
+
+/// The fate of each of the input's edges.
+pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
+    let input = &case.input;
+    let mut fates = Vec::with_capacity(input.edges.len());
+    for (e, edge) in input.edges.iter().enumerate() {
+        let fate = if let Some(chain) = chain(case, edge.ends) {
+            Fate::Chain(chain)
+        } else if is_mergeable(case, e) {
+            Fate::Merged
+        } else if leaves(case, edge.ends) {
+            Fate::Outside
+        } else {
+            Fate::Missing
+        };
+        let counts = &mut findings.counts;
+        match &fate {
+            Fate::Chain(chain) => {
+                counts.segments += 1;
+                counts.subsegments += chain.len() - 1;
+                for &v in &chain[1..chain.len() - 1] {
+                    if case.points.collinear([edge.ends[0], edge.ends[1], v]) {
+                        counts.segment_vertices_exact += 1;
+                    } else {
+                        counts.segment_vertices_rounded += 1;
+                    }
+                }
+            }
+            Fate::Merged => counts.segments_merged += 1,
+            Fate::Outside => counts.segments_outside += 1,
+            Fate::Missing => report(case, e, findings),
+        }
+        fates.push(fate);
+    }
+    fates
+}
+
+/// Reports an input edge as missing.
+pub(super) fn report(case: &Case, e: usize, findings: &mut Findings) {
+    let edge = &case.input.edges[e];
+    findings.report(Violation::MissingSegment {
+        ends: edge.ends.map(|v| case.place(v)),
+        facets: edge.facets.clone(),
+    });
+}
+
+fn chain(case: &Case, [a, b]: [VertexId; 2]) -> Option<Vec<VertexId>> {
+    if case.tables.has_edge([a, b]) {
+        return Some(vec![a, b]);
+    }
+    if !case.tables.is_used(a) || !case.tables.is_used(b) {
+        return None;
+    }
+    let along = minus(case.points.at(b), case.points.at(a)).map(f64::abs);
+    let axis = (0..3)
+        .max_by(|&i, &j| along[i].total_cmp(&along[j]))
+        .expect("three axes");
+    let forward = if case.points.at(b)[axis] > case.points.at(a)[axis] {
+        1.0
+    } else {
+        -1.0
+    };
+    let position = |v: VertexId| forward * case.points.at(v)[axis];
+    // Depth first, nearest first; a vertex that led nowhere is not tried again.
+    let mut tried = vec![a];
+    let mut path = vec![a];
+    while let Some(&v) = path.last() {
+        if v == b {
+            return Some(path);
+        }
+        let step = case
+            .tables
+            .neighbours(v)
+            .iter()
+            .copied()
+            .filter(|&w| position(w) > position(v) && (w == b || position(w) < position(b)))
+            .filter(|w| !tried.contains(w) && (*w == b || is_on(case, [a, b], *w)))
+            .min_by(|&w, &x| position(w).total_cmp(&position(x)));
+        match step {
+            Some(w) => {
+                tried.push(w);
+                path.push(w);
+            }
+            None => {
+                path.pop();
+            }
+        }
+    }
+    None
+}
+
+fn is_on(case: &Case, ends: [VertexId; 2], v: VertexId) -> bool {
+    if case.input.is_site(v) {
+        case.points.collinear([ends[0], ends[1], v])
+    } else {
+        case.points.near_line(ends, v, case.tolerance)
+    }
+}
+
+/// Whether the segment is outside the domain: one of its ends is in no tetrahedron, or neither end leads into one.
+fn leaves(case: &Case, [a, b]: [VertexId; 2]) -> bool {
+    let unused = !case.tables.is_used(a) || !case.tables.is_used(b);
+    unused || (!case.locator.enters(a, &[b]) && !case.locator.enters(b, &[a]))
+}
+
+/// Whether the edge is of exactly two facets with one marker, on opposite sides of it, whose planes are the same exactly
+/// or within [`super::VerifyOptions::merge_angle`].
+fn is_mergeable(case: &Case, e: usize) -> bool {
+    let edge = &case.input.edges[e];
+    let [f, g] = edge.facets[..] else {
+        return false;
+    };
+    if edge.explicit || case.plc.facets[f].marker != case.plc.facets[g].marker {
+        return false;
+    }
+    let facets = [f, g].map(|i| &case.input.facets[i]);
+    let [Some(p), Some(q)] = facets.map(|facet| facet.frame) else {
+        return false;
+    };
+    let Some(axes) = axes_of(case, p) else {
+        return false;
+    };
+    let [a, b, c] = p;
+    let coplanar = facets[0].flat
+        && facets[1]
+            .vertices
+            .iter()
+            .all(|&v| case.points.orient([a, b, c, v]).is_zero());
+    if !coplanar && !within_angle(case, p, q) {
+        return false;
+    }
+    let sides = facets.map(|facet| {
+        let edges: Vec<_> = facet
+            .edges
+            .iter()
+            .map(|&e| case.input.edges[e].ends)
+            .collect();
+        Area::new(case.points, axes, &edges, &facet.holes).sides(edge.ends)
+    });
+    matches!(
+        sides,
+        [Some([true, false]), Some([false, true])] | [Some([false, true]), Some([true, false])]
+    )
+}
+
+fn within_angle(case: &Case, p: [VertexId; 3], q: [VertexId; 3]) -> bool {
+    let Some(angle) = case.options.merge_angle else {
+        return false;
+    };
+    let [n, m] = [p, q].map(|t| {
+        let [a, b, c] = t.map(|v| case.points.at(v));
+        cross(minus(b, a), minus(c, a))
+    });
+    // The frames are oriented at will, and the facets lie on opposite sides, so the dihedral angle is the one above 90°.
+    let sine = dot(cross(n, m), cross(n, m)).sqrt();
+    let deviation = sine.atan2(dot(n, m).abs()).to_degrees();
+    180.0 - deviation >= angle
+}
+
+/// The axes that remain when the one nearest to the normal of the plane is dropped, in right-handed order.
+pub(super) fn axes_of(case: &Case, frame: [VertexId; 3]) -> Option<[usize; 2]> {
+    let [a, b, c] = frame.map(|v| case.points.at(v));
+    let normal = cross(minus(b, a), minus(c, a)).map(f64::abs);
+    let mut drop = [0, 1, 2];
+    drop.sort_by(|&i, &j| normal[j].total_cmp(&normal[i]));
+    drop.into_iter()
+        .map(|k| [(k + 1) % 3, (k + 2) % 3])
+        .find(|&axes| !case.points.orient2d(axes, frame).is_zero())
+}

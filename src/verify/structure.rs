@@ -1,0 +1,90 @@
+//! Indices are in range, coordinates are finite, no tetrahedron repeats a vertex. Nothing else is checked where this
+//! fails.
+
+use super::{Findings, Place, Violation};
+use crate::mesh::{ExportedMesh, VertexId};
+use crate::plc::Plc;
+
+pub(super) fn check(plc: &Plc, mesh: &ExportedMesh, findings: &mut Findings) {
+    let finite = |findings: &mut Findings,
+                  element: &'static str,
+                  places: &mut dyn Iterator<Item = [f64; 3]>| {
+        for (index, at) in places.enumerate() {
+            if at.iter().any(|x| !x.is_finite()) {
+                findings.report(Violation::NotFinite { element, index, at });
+            }
+        }
+    };
+    finite(findings, "mesh vertex", &mut mesh.vertices.iter().copied());
+    finite(findings, "input vertex", &mut plc.vertices.iter().copied());
+    finite(findings, "hole point", &mut plc.holes.iter().copied());
+    finite(
+        findings,
+        "region point",
+        &mut plc.regions.iter().map(|r| r.point),
+    );
+    finite(
+        findings,
+        "facet hole point",
+        &mut plc.facets.iter().flat_map(|f| f.holes.iter().copied()),
+    );
+
+    let mut range = |element: &'static str, index: usize, ids: &[VertexId], vertices: usize| {
+        for id in ids {
+            if id.index() >= vertices {
+                let vertex = id.index();
+                findings.report(Violation::IndexOutOfRange {
+                    element,
+                    index,
+                    vertex,
+                    vertices,
+                });
+            }
+        }
+    };
+    let (n, m) = (mesh.vertices.len(), plc.vertices.len());
+    mesh.tets
+        .iter()
+        .enumerate()
+        .for_each(|(i, t)| range("tetrahedron", i, t, n));
+    mesh.faces
+        .iter()
+        .enumerate()
+        .for_each(|(i, f)| range("mesh face", i, &f.vertices, n));
+    mesh.edges
+        .iter()
+        .enumerate()
+        .for_each(|(i, e)| range("mesh edge", i, &e.vertices, n));
+    plc.segments
+        .iter()
+        .enumerate()
+        .for_each(|(i, s)| range("segment", i, &s.ends, m));
+    for (i, facet) in plc.facets.iter().enumerate() {
+        facet.polygons.iter().for_each(|p| range("facet", i, p, m));
+    }
+    if !findings.is_empty() {
+        return;
+    }
+    for (tet, t) in mesh.tets.iter().enumerate() {
+        if let Some(&id) = (1..4)
+            .flat_map(|i| (0..i).map(move |j| (i, j)))
+            .find(|&(i, j)| t[i] == t[j])
+            .map(|(i, _)| &t[i])
+        {
+            let vertex = Place {
+                id,
+                at: mesh.vertices[id.index()],
+            };
+            findings.report(Violation::RepeatedVertex { tet, vertex });
+        }
+    }
+    if !mesh.regions.is_empty() && mesh.regions.len() != mesh.tets.len() {
+        findings.report(Violation::RegionCount {
+            regions: mesh.regions.len(),
+            tets: mesh.tets.len(),
+        });
+    }
+    if mesh.tets.is_empty() {
+        findings.report(Violation::Empty);
+    }
+}

@@ -1,0 +1,208 @@
+//! The outcome of a verification: what was checked and what does not hold.
+
+use super::{Domain, Violation};
+use crate::mesh::VertexId;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// A vertex and where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Its index in the mesh (in the PLC where the text says so, or where it is in no tetrahedron).
+    pub id: VertexId,
+    /// Its coordinates.
+    pub at: [f64; 3],
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.at;
+        write!(f, "v{} ({x}, {y}, {z})", self.id.0)
+    }
+}
+
+/// What was counted on the way. Every exception that a check grants has its own count.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Counts {
+    /// Tetrahedra.
+    pub tets: usize,
+    /// All tetrahedra were negative, and were read as if two of their vertices were exchanged.
+    pub turned: bool,
+    /// Vertices that tetrahedra use.
+    pub vertices: usize,
+    /// Those among them that are not vertices of the input.
+    pub steiner_vertices: usize,
+    /// Distinct input vertices.
+    pub input_vertices: usize,
+    /// Input vertices in no tetrahedron: outside the domain.
+    pub input_vertices_outside: usize,
+    /// Faces.
+    pub faces: usize,
+    /// Faces with one tetrahedron.
+    pub boundary_faces: usize,
+    /// Faces that cover facets.
+    pub constrained_faces: usize,
+    /// Interior faces on no facet, all of which must be locally Delaunay.
+    pub unconstrained_faces: usize,
+    /// Those among them whose two tetrahedra have one circumsphere.
+    pub cospherical_faces: usize,
+    /// Segments and facet edges that are chains of mesh edges.
+    pub segments: usize,
+    /// The edges of those chains.
+    pub subsegments: usize,
+    /// Facet edges merged away between coplanar facets.
+    pub segments_merged: usize,
+    /// Segments and facet edges outside the domain.
+    pub segments_outside: usize,
+    /// Inner vertices of the chains that are exactly on the segment.
+    pub segment_vertices_exact: usize,
+    /// Inner vertices of the chains that are on it up to rounding.
+    pub segment_vertices_rounded: usize,
+    /// Facets that mesh faces cover.
+    pub facets: usize,
+    /// The groups into which merged edges join the facets.
+    pub facet_groups: usize,
+    /// Groups that are one flat facet, some of whose mesh faces are not exactly flat.
+    pub facets_rounded: usize,
+    /// Groups without an area.
+    pub facets_degenerate: usize,
+    /// Parts of facets outside the domain.
+    pub facet_parts_outside: usize,
+    /// Bounded components of the empty space.
+    pub voids: usize,
+    /// Hole points in tetrahedra, where the convex hull is kept.
+    pub holes_meshed: usize,
+    /// Region points whose tetrahedron was compared.
+    pub regions: usize,
+    /// Edges of the hull that are not convex, but are up to rounding.
+    pub hull_dents: usize,
+    /// What the mesh was taken to fill; never [`Domain::Auto`] once it is known.
+    pub domain: Domain,
+    /// The sum of the volumes of the tetrahedra.
+    pub volume: f64,
+}
+
+/// The outcome of [`super::verify`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// What was checked.
+    pub counts: Counts,
+    /// What does not hold: of each kind the first [`super::VerifyOptions::cap`] ones.
+    pub violations: Vec<Violation>,
+    /// How many violations there are of each kind ([`Violation::kind`]), whether listed or not.
+    pub totals: BTreeMap<&'static str, usize>,
+}
+
+impl Verdict {
+    /// Whether all claims hold.
+    pub fn is_ok(&self) -> bool {
+        self.totals.is_empty()
+    }
+}
+
+/// One line for each group of counts, one for each kind of violation, one for each listed violation.
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let c = &self.counts;
+        let domain = match c.domain {
+            Domain::Auto => "unknown",
+            Domain::Hull => "convex hull",
+            Domain::Inside => "inside of the facets",
+        };
+        let turned = if c.turned {
+            " (all negative: read with the other orientation)"
+        } else {
+            ""
+        };
+        writeln!(
+            f,
+            "tetrahedra: {}{turned}, volume {}, domain: {domain}",
+            c.tets, c.volume
+        )?;
+        writeln!(
+            f,
+            "vertices: {} used, {} Steiner; input: {}, {} outside",
+            c.vertices, c.steiner_vertices, c.input_vertices, c.input_vertices_outside
+        )?;
+        writeln!(
+            f,
+            "faces: {}, {} on the boundary, {} on facets, {} checked for local Delaunayhood ({} cospherical)",
+            c.faces,
+            c.boundary_faces,
+            c.constrained_faces,
+            c.unconstrained_faces,
+            c.cospherical_faces
+        )?;
+        writeln!(
+            f,
+            "segments: {} in {} edges, inner vertices {} exact and {} rounded; {} merged away, {} outside",
+            c.segments,
+            c.subsegments,
+            c.segment_vertices_exact,
+            c.segment_vertices_rounded,
+            c.segments_merged,
+            c.segments_outside
+        )?;
+        writeln!(
+            f,
+            "facets: {} in {} groups, {} rounded, {} without area; {} parts outside",
+            c.facets, c.facet_groups, c.facets_rounded, c.facets_degenerate, c.facet_parts_outside
+        )?;
+        writeln!(
+            f,
+            "voids: {}, hole points meshed: {}, region points: {}, hull edges dented by rounding: {}",
+            c.voids, c.holes_meshed, c.regions, c.hull_dents
+        )?;
+        for (kind, total) in &self.totals {
+            writeln!(f, "VIOLATED {kind}: {total}")?;
+        }
+        for violation in &self.violations {
+            writeln!(f, "  {violation}")?;
+        }
+        write!(f, "{}", if self.is_ok() { "accepted" } else { "refused" })
+    }
+}
+
+/// Violations and counts as the checks collect them.
+pub(super) struct Findings {
+    pub(super) counts: Counts,
+    pub(super) violations: Vec<Violation>,
+    totals: BTreeMap<&'static str, usize>,
+    cap: usize,
+}
+
+impl Findings {
+    pub(super) fn new(cap: usize) -> Findings {
+        Findings {
+            counts: Counts::default(),
+            violations: Vec::new(),
+            totals: BTreeMap::new(),
+            cap,
+        }
+    }
+
+    /// Nothing found yet, with the same cap.
+    pub(super) fn trial(&self) -> Findings {
+        Findings::new(self.cap)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.totals.is_empty()
+    }
+
+    pub(super) fn report(&mut self, violation: Violation) {
+        let total = self.totals.entry(violation.kind()).or_insert(0);
+        *total += 1;
+        if *total <= self.cap {
+            self.violations.push(violation);
+        }
+    }
+
+    pub(super) fn verdict(self) -> Verdict {
+        Verdict {
+            counts: self.counts,
+            violations: self.violations,
+            totals: self.totals,
+        }
+    }
+}
