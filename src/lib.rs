@@ -2,6 +2,7 @@
 //! Si & Shewchuk, *Incrementally Constructing and Updating Constrained Delaunay Tetrahedralizations with Finite
 //! Precision Coordinates*.
 
+pub mod format;
 pub mod mesh;
 pub mod number;
 pub mod plc;
