@@ -9,8 +9,5 @@ pub mod mesh;
 pub mod number;
 pub mod plc;
 pub mod predicate;
-<<<<<<< HEAD
 pub mod recover;
-=======
 pub mod verify;
->>>>>>> d6b0637cd04d8a801e0573689018c8e3b3bfc3fa

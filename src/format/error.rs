@@ -1,0 +1,131 @@
+//! What can be wrong with a file, and where.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// Why a file could not be read as a PLC.
+#[derive(Debug, thiserror::Error)]
+pub enum FormatError {
+    /// The operating system did not give the file.
+    #[error("cannot read {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// The extension is none that we know.
+    #[error("unknown file extension {0:?}: expected .poly, .smesh, .node, .off or .stl")]
+    UnknownExtension(String),
+    /// The file itself is wrong.
+    #[error("{place}: {reason}")]
+    Malformed {
+        /// Where.
+        place: Place,
+        /// Why.
+        reason: Reason,
+    },
+    /// The `.node` file that holds the vertices of a `.poly` or `.smesh` file is wrong.
+    #[error("in the .node file of the vertices: {0}")]
+    NodeFile(#[source] Box<FormatError>),
+}
+
+/// A place in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line of a text file, counted from 1.
+    Line(usize),
+    /// An offset in a binary file, counted from 0.
+    Byte(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Line(n) => write!(f, "line {n}"),
+            Place::Byte(n) => write!(f, "byte {n}"),
+        }
+    }
+}
+
+/// What is wrong at a place in a file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Reason {
+    /// The file ends too early.
+    #[error("the file ends where {0} should be")]
+    Truncated(&'static str),
+    /// The line ends too early.
+    #[error("the line ends where {0} should be")]
+    LineEnds(&'static str),
+    /// A word that is not what should stand there.
+    #[error("{token:?} is not {expected}")]
+    BadToken {
+        /// The word, shortened.
+        token: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A coordinate that is infinite, not a number, or too large for a double.
+    #[error("{0} is not a finite number")]
+    NotFinite(String),
+    /// A count below zero.
+    #[error("{what} is negative: {count}")]
+    NegativeCount {
+        /// What is counted.
+        what: &'static str,
+        /// The count.
+        count: i64,
+    },
+    /// More vertices than ids.
+    #[error("{0} vertices are too many")]
+    TooManyVertices(u64),
+    /// Vertices are counted from 0 or 1.
+    #[error("the first vertex has the number {0}, which is neither 0 nor 1")]
+    FirstIndex(i64),
+    /// Vertices are not numbered one after the other.
+    #[error("vertex {found} stands where vertex {expected} should be")]
+    VertexNumber {
+        /// The number in the file.
+        found: i64,
+        /// The number that should be there.
+        expected: i64,
+    },
+    /// A corner that is no vertex.
+    #[error("there is no vertex {index}: vertices are numbered from {first} to {last}")]
+    IndexOutOfRange {
+        /// The number in the file.
+        index: i64,
+        /// The first vertex.
+        first: i64,
+        /// The last vertex.
+        last: i64,
+    },
+    /// Points in the plane, or in four dimensions.
+    #[error("the points have dimension {0} instead of 3")]
+    Dimension(i64),
+    /// A file without vertices.
+    #[error("the file has no vertices")]
+    NoVertices,
+    /// A facet or a polygon without vertices.
+    #[error("a facet has no vertices")]
+    EmptyFacet,
+    /// A face of an OFF file with fewer than three vertices.
+    #[error("a face has only {0} vertices")]
+    ShortFace(i64),
+    /// Something follows where the line or the file should end: some count is too small.
+    #[error("{0:?} is more than was announced")]
+    Trailing(String),
+    /// The binary variant of OFF, whose byte order is not settled among its writers.
+    #[error("binary OFF files are not supported; convert the file to ASCII")]
+    BinaryOff,
+    /// A binary STL file whose size is not that of its triangles.
+    #[error("{triangles} triangles take {expected} bytes, but the file has {found}")]
+    StlSize {
+        /// The number of triangles in the header.
+        triangles: u32,
+        /// The size a file with so many triangles has.
+        expected: u64,
+        /// The size of the file.
+        found: u64,
+    },
+}

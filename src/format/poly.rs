@@ -1,0 +1,291 @@
+//! TetGen's `.node`, `.poly` and `.smesh` files (Si, *TetGen, a Quality Tetrahedral Mesh Generator*, user's manual,
+//! section "File formats").
+//!
+//! ```text
+//! <vertices> [3 [<attributes> [<markers 0|1>]]]      then per vertex   <number> <x> <y> <z> …
+//! <facets> [<markers 0|1>]                           then per facet
+//!     .poly:   <polygons> [<holes> [<marker>]]       then per polygon  <corners> <vertex> …
+//!                                                    then per hole     <number> <x> <y> <z>
+//!     .smesh:  <corners> <vertex> … [<marker>]
+//! <holes>                                            then per hole     <number> <x> <y> <z>
+//! <regions>                                          then per region   <number> <x> <y> <z> <attribute> [<volume>]
+//! ```
+//!
+//! As in TetGen, a list of no vertices refers to the `.node` file, corners may go on in the next line, the facet's
+//! number of holes may be missing, and so may the list of regions, or those of holes and regions, at the end of the
+//! file. Unlike TetGen we check the numbers of the vertices and refuse whatever is left over in a line or at the end,
+//! because it means that a count is wrong.
+
+use super::error::{FormatError, Reason};
+use super::text::Text;
+use crate::mesh::VertexId;
+use crate::plc::{Facet, Plc, Region, Segment};
+
+/// A list of vertices: the number of the first, and the coordinates.
+type VertexList = (u32, Vec<[f64; 3]>);
+
+/// Which of the two facet lists a file has.
+#[derive(Clone, Copy)]
+enum FacetList {
+    Poly,
+    Smesh,
+}
+
+/// Reads a `.node` file: vertices alone.
+pub fn read_node(bytes: &[u8]) -> Result<Plc, FormatError> {
+    let mut text = Text::new(bytes, true);
+    let (first_index, vertices) = vertex_list(&mut text)?;
+    if vertices.is_empty() {
+        return Err(text.error(Reason::NoVertices));
+    }
+    text.end_file()?;
+    Ok(Plc {
+        first_index,
+        vertices,
+        ..Plc::default()
+    })
+}
+
+/// Reads a `.poly` file. `nodes` is asked for the bytes of the `.node` file if the list of vertices is empty.
+pub fn read_poly(
+    bytes: &[u8],
+    nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
+) -> Result<Plc, FormatError> {
+    read(bytes, FacetList::Poly, nodes)
+}
+
+/// Reads a `.smesh` file. `nodes` is asked for the bytes of the `.node` file if the list of vertices is empty.
+pub fn read_smesh(
+    bytes: &[u8],
+    nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
+) -> Result<Plc, FormatError> {
+    read(bytes, FacetList::Smesh, nodes)
+}
+
+fn read(
+    bytes: &[u8],
+    list: FacetList,
+    nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
+) -> Result<Plc, FormatError> {
+    let mut text = Text::new(bytes, true);
+    let (first_index, vertices) = vertex_list(&mut text)?;
+    let mut plc = if vertices.is_empty() {
+        read_node(&nodes()?).map_err(|e| FormatError::NodeFile(Box::new(e)))?
+    } else {
+        Plc {
+            first_index,
+            vertices,
+            ..Plc::default()
+        }
+    };
+    facet_list(&mut text, list, &mut plc)?;
+    if text.advance() {
+        plc.holes = holes(&mut text)?;
+    }
+    if text.advance() {
+        plc.regions = regions(&mut text)?;
+    }
+    text.end_file()?;
+    Ok(plc)
+}
+
+fn vertex_list(text: &mut Text) -> Result<VertexList, FormatError> {
+    text.begin("the number of vertices")?;
+    let token = text.here("the number of vertices")?;
+    let count = text.vertex_count(token)?;
+    if let Some(token) = text.token() {
+        let dimension = text.integer(token)?;
+        if dimension != 3 {
+            return Err(text.error(Reason::Dimension(dimension)));
+        }
+    }
+    for what in ["the number of attributes", "the number of markers"] {
+        if let Some(token) = text.token() {
+            text.count(token, what)?;
+        }
+    }
+    text.end_line()?;
+
+    let mut first = 0;
+    let mut vertices = Vec::new();
+    for i in 0..count as i64 {
+        text.begin("a vertex")?;
+        let token = text.here("the number of a vertex")?;
+        let number = text.integer(token)?;
+        if i == 0 {
+            if !(0..=1).contains(&number) {
+                return Err(text.error(Reason::FirstIndex(number)));
+            }
+            first = number;
+        } else if number != first + i {
+            return Err(text.error(Reason::VertexNumber {
+                found: number,
+                expected: first + i,
+            }));
+        }
+        vertices.push(text.point()?);
+        // Attributes and the marker, which we have no use for.
+        while let Some(token) = text.token() {
+            text.real(token)?;
+        }
+    }
+    Ok((first as u32, vertices))
+}
+
+fn facet_list(text: &mut Text, list: FacetList, plc: &mut Plc) -> Result<(), FormatError> {
+    text.begin("the number of facets")?;
+    let token = text.here("the number of facets")?;
+    let count = text.count(token, "the number of facets")?;
+    let marked = match text.token() {
+        Some(token) => text.count(token, "the number of facet markers")? > 0,
+        None => false,
+    };
+    text.end_line()?;
+    for _ in 0..count {
+        text.begin("a facet")?;
+        let mut facet = match list {
+            FacetList::Poly => poly_facet(text, plc)?,
+            FacetList::Smesh => smesh_facet(text, plc)?,
+        };
+        if !marked {
+            facet.marker = 0;
+        }
+        if facet.polygons.iter().any(|p| p.len() >= 3) {
+            plc.facets.push(facet);
+            continue;
+        }
+        // Not an area: segments that float in space. Single vertices say nothing.
+        for polygon in &facet.polygons {
+            if let &[a, b] = &polygon[..] {
+                plc.segments.push(Segment {
+                    ends: [a, b],
+                    marker: facet.marker,
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn poly_facet(text: &mut Text, plc: &Plc) -> Result<Facet, FormatError> {
+    let token = text.here("the number of polygons of a facet")?;
+    let polygons = text.count(token, "the number of polygons of a facet")?;
+    if polygons == 0 {
+        return Err(text.error(Reason::EmptyFacet));
+    }
+    let holes = match text.token() {
+        Some(token) => text.count(token, "the number of holes of a facet")?,
+        None => 0,
+    };
+    let marker = marker(text)?;
+    text.end_line()?;
+    let mut facet = Facet {
+        marker,
+        ..Facet::default()
+    };
+    for _ in 0..polygons {
+        text.begin("a polygon")?;
+        facet.polygons.push(corners(text, plc)?);
+        text.end_line()?;
+    }
+    for _ in 0..holes {
+        text.begin("a hole of a facet")?;
+        facet.holes.push(numbered_point(text)?);
+        text.end_line()?;
+    }
+    Ok(facet)
+}
+
+fn smesh_facet(text: &mut Text, plc: &Plc) -> Result<Facet, FormatError> {
+    let polygons = vec![corners(text, plc)?];
+    let marker = marker(text)?;
+    text.end_line()?;
+    Ok(Facet {
+        polygons,
+        marker,
+        holes: Vec::new(),
+    })
+}
+
+fn marker(text: &mut Text) -> Result<i32, FormatError> {
+    let Some(token) = text.token() else {
+        return Ok(0);
+    };
+    let marker = text.integer(token)?;
+    i32::try_from(marker).map_err(|_| text.bad(token, "a marker of 32 bits"))
+}
+
+fn corners(text: &mut Text, plc: &Plc) -> Result<Vec<VertexId>, FormatError> {
+    let token = text.here("the number of corners")?;
+    let count = text.count(token, "the number of corners")?;
+    if count == 0 {
+        return Err(text.error(Reason::EmptyFacet));
+    }
+    let mut polygon = Vec::new();
+    for _ in 0..count {
+        let token = text.anywhere("a corner")?;
+        polygon.push(vertex(text, token, plc.first_index, plc.vertices.len())?);
+    }
+    Ok(polygon)
+}
+
+/// The vertex with the given number in a file whose vertices are numbered from `first`.
+pub(super) fn vertex(
+    text: &Text,
+    token: &[u8],
+    first: u32,
+    count: usize,
+) -> Result<VertexId, FormatError> {
+    let index = text.integer(token)?;
+    let first = i64::from(first);
+    let last = first + count as i64 - 1;
+    if (first..=last).contains(&index) {
+        Ok(VertexId::new((index - first) as usize))
+    } else {
+        Err(text.error(Reason::IndexOutOfRange { index, first, last }))
+    }
+}
+
+fn numbered_point(text: &mut Text) -> Result<[f64; 3], FormatError> {
+    let token = text.here("the number of a point")?;
+    text.integer(token)?;
+    text.point()
+}
+
+fn holes(text: &mut Text) -> Result<Vec<[f64; 3]>, FormatError> {
+    let token = text.here("the number of holes")?;
+    let count = text.count(token, "the number of holes")?;
+    text.end_line()?;
+    let mut holes = Vec::new();
+    for _ in 0..count {
+        text.begin("a hole")?;
+        holes.push(numbered_point(text)?);
+        text.end_line()?;
+    }
+    Ok(holes)
+}
+
+fn regions(text: &mut Text) -> Result<Vec<Region>, FormatError> {
+    let token = text.here("the number of regions")?;
+    let count = text.count(token, "the number of regions")?;
+    text.end_line()?;
+    let mut regions = Vec::new();
+    for _ in 0..count {
+        text.begin("a region")?;
+        let point = numbered_point(text)?;
+        let token = text.here("the attribute of a region")?;
+        let attribute = text.real(token)?;
+        let volume = match text.token() {
+            Some(token) => Some(text.real(token)?),
+            None => None,
+        };
+        text.end_line()?;
+        regions.push(Region {
+            point,
+            attribute,
+            // TetGen writes −1 for "no bound".
+            max_volume: volume.filter(|&v| v > 0.0),
+        });
+    }
+    Ok(regions)
+}

@@ -1,0 +1,216 @@
+//! Words and numbers of a text file, with line numbers.
+//!
+//! Lines end with LF, CRLF or CR; a comment runs from `#` to the end of its line (not in STL); lines without a word are
+//! skipped. Nothing is allocated by a count that a file announces.
+
+use super::error::{FormatError, Place, Reason};
+
+/// A reader of the words of a text file.
+pub(super) struct Text<'a> {
+    /// What follows the current line.
+    rest: &'a [u8],
+    /// What is left of the current line.
+    line: &'a [u8],
+    /// The number of the current line, from 1.
+    number: usize,
+    comments: bool,
+}
+
+impl<'a> Text<'a> {
+    /// Before the first line. A UTF-8 byte order mark is skipped.
+    pub fn new(bytes: &'a [u8], comments: bool) -> Text<'a> {
+        Text {
+            rest: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes),
+            line: &[],
+            number: 0,
+            comments,
+        }
+    }
+
+    /// Goes to the next line that has a word; false at the end of the file.
+    pub fn advance(&mut self) -> bool {
+        while !self.rest.is_empty() {
+            let end = |b: &u8| matches!(b, b'\n' | b'\r');
+            let length = self.rest.iter().position(end).unwrap_or(self.rest.len());
+            let (line, tail) = self.rest.split_at(length);
+            self.rest = match tail {
+                [b'\r', b'\n', rest @ ..] | [_, rest @ ..] => rest,
+                [] => &[],
+            };
+            self.number += 1;
+            self.line = match line.iter().position(|&b| b == b'#') {
+                Some(comment) if self.comments => &line[..comment],
+                _ => line,
+            };
+            if !self.line.trim_ascii().is_empty() {
+                return true;
+            }
+        }
+        self.line = &[];
+        false
+    }
+
+    /// Goes to the next line that has a word.
+    pub fn begin(&mut self, what: &'static str) -> Result<(), FormatError> {
+        if self.advance() {
+            Ok(())
+        } else {
+            Err(self.error(Reason::Truncated(what)))
+        }
+    }
+
+    /// Drops the rest of the current line.
+    pub fn skip_line(&mut self) {
+        self.line = &[];
+    }
+
+    /// The next word of the current line.
+    pub fn token(&mut self) -> Option<&'a [u8]> {
+        let line = self.line.trim_ascii_start();
+        let length = line.iter().position(u8::is_ascii_whitespace);
+        let (token, rest) = line.split_at(length.unwrap_or(line.len()));
+        self.line = rest;
+        (!token.is_empty()).then_some(token)
+    }
+
+    /// The next word, which must be on the current line.
+    pub fn here(&mut self, what: &'static str) -> Result<&'a [u8], FormatError> {
+        self.token()
+            .ok_or_else(|| self.error(Reason::LineEnds(what)))
+    }
+
+    /// The next word on this line or a later one.
+    pub fn anywhere(&mut self, what: &'static str) -> Result<&'a [u8], FormatError> {
+        loop {
+            if let Some(token) = self.token() {
+                return Ok(token);
+            }
+            self.begin(what)?;
+        }
+    }
+
+    /// The current line has no more words.
+    pub fn end_line(&mut self) -> Result<(), FormatError> {
+        match self.token() {
+            Some(token) => Err(self.error(Reason::Trailing(shorten(token)))),
+            None => Ok(()),
+        }
+    }
+
+    /// The file has no more words.
+    pub fn end_file(&mut self) -> Result<(), FormatError> {
+        self.end_line()?;
+        self.advance();
+        self.end_line()
+    }
+
+    /// A finite number.
+    pub fn real(&self, token: &[u8]) -> Result<f64, FormatError> {
+        let x: f64 = self.parse(token, "a number")?;
+        if x.is_finite() {
+            Ok(x)
+        } else {
+            Err(self.error(Reason::NotFinite(shorten(token))))
+        }
+    }
+
+    /// A whole number.
+    pub fn integer(&self, token: &[u8]) -> Result<i64, FormatError> {
+        self.parse(token, "a whole number")
+    }
+
+    /// A whole number from 0.
+    pub fn count(&self, token: &[u8], what: &'static str) -> Result<u64, FormatError> {
+        let count = self.integer(token)?;
+        u64::try_from(count).map_err(|_| self.error(Reason::NegativeCount { what, count }))
+    }
+
+    /// A number of vertices.
+    pub fn vertex_count(&self, token: &[u8]) -> Result<u64, FormatError> {
+        let count = self.count(token, "the number of vertices")?;
+        // The last ids are not ordinary vertices.
+        if count < u64::from(u32::MAX) {
+            Ok(count)
+        } else {
+            Err(self.error(Reason::TooManyVertices(count)))
+        }
+    }
+
+    /// Three finite numbers on the current line.
+    pub fn point(&mut self) -> Result<[f64; 3], FormatError> {
+        let mut point = [0.0; 3];
+        for x in &mut point {
+            let token = self.here("a coordinate")?;
+            *x = self.real(token)?;
+        }
+        Ok(point)
+    }
+
+    fn parse<T: std::str::FromStr>(
+        &self,
+        token: &[u8],
+        expected: &'static str,
+    ) -> Result<T, FormatError> {
+        let value = std::str::from_utf8(token).ok().and_then(|t| t.parse().ok());
+        value.ok_or_else(|| self.bad(token, expected))
+    }
+
+    /// The error that `token` is not what was `expected`.
+    pub fn bad(&self, token: &[u8], expected: &'static str) -> FormatError {
+        self.error(Reason::BadToken {
+            token: shorten(token),
+            expected,
+        })
+    }
+
+    /// An error at the current line.
+    pub fn error(&self, reason: Reason) -> FormatError {
+        FormatError::Malformed {
+            place: Place::Line(self.number),
+            reason,
+        }
+    }
+}
+
+/// The first 40 characters of a word, which in a binary file can be very long.
+fn shorten(token: &[u8]) -> String {
+    let text = String::from_utf8_lossy(&token[..token.len().min(160)]);
+    text.chars().take(40).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_lines_of_all_endings() {
+        let mut text = Text::new(b"\xef\xbb\xbfa\r\n\r\n# b\rc # d\n\n e", true);
+        let mut seen = Vec::new();
+        while text.advance() {
+            seen.push((text.number, text.token().unwrap()));
+            assert_eq!(text.token(), None);
+        }
+        assert_eq!(seen, [(1, &b"a"[..]), (4, &b"c"[..]), (6, &b"e"[..])]);
+    }
+
+    #[test]
+    fn numbers_are_strict() {
+        let text = Text::new(b"", true);
+        assert_eq!(text.real(b"-1.5e3").unwrap(), -1500.0);
+        for bad in [
+            &b"1.0x"[..],
+            b"1,0",
+            b"nan",
+            b"-inf",
+            b"1e999",
+            b"\xff",
+            b"",
+        ] {
+            assert!(text.real(bad).is_err(), "{bad:?}");
+        }
+        for bad in [&b"1.0"[..], b"0x1", b"99999999999999999999"] {
+            assert!(text.integer(bad).is_err(), "{bad:?}");
+        }
+        assert!(text.count(b"-1", "it").is_err());
+    }
+}
