@@ -3,6 +3,7 @@
 
 use crate::delaunay::DelaunayError;
 use crate::mesh::VertexId;
+use crate::plc::{EdgeName, FacetName, Plc, PlcError, VertexName};
 
 /// Why there is no tetrahedralization.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -10,12 +11,106 @@ pub enum Failure {
     /// The vertices do not span space.
     #[error(transparent)]
     Delaunay(#[from] DelaunayError),
+    /// The input is no PLC: one of its facets or segments is not what it must be.
+    #[error("invalid PLC: {0}")]
+    Plc(#[from] PlcError),
     /// The input is no PLC: parts of it intersect.
     #[error("invalid PLC: {0}")]
     Invalid(#[from] InvalidPlc),
     /// The algorithm gave up on what may be a valid PLC.
     #[error("gave up: {0}")]
     GaveUp(#[from] GaveUp),
+}
+
+impl Failure {
+    /// The message, with vertices and facets numbered as in the user's file.
+    pub fn describe(&self, plc: &Plc) -> String {
+        let facets = |list: &[usize]| {
+            let names: Vec<String> = list
+                .iter()
+                .take(4)
+                .map(|&i| FacetName::new(plc, i).to_string())
+                .collect();
+            let more = if list.len() > 4 {
+                format!(" and {} more", list.len() - 4)
+            } else {
+                String::new()
+            };
+            names.join(", ") + &more
+        };
+        let edge = |&ends: &[VertexId; 2]| EdgeName::new(plc, ends);
+        match self {
+            Failure::Invalid(invalid) => match invalid {
+                InvalidPlc::VertexOnSegment { segment, vertex } => {
+                    let vertex = VertexName::new(plc, *vertex);
+                    format!(
+                        "invalid PLC: vertex {vertex} lies in the interior of segment {}",
+                        edge(segment)
+                    )
+                }
+                InvalidPlc::SegmentsMeet { segments: [a, b] } => {
+                    format!(
+                        "invalid PLC: segments {} and {} intersect",
+                        edge(a),
+                        edge(b)
+                    )
+                }
+                InvalidPlc::VertexOnPolygon { facets: f, vertex } => {
+                    let vertex = VertexName::new(plc, *vertex);
+                    format!(
+                        "invalid PLC: vertex {vertex} lies in the interior of {}, which does not have it",
+                        facets(f)
+                    )
+                }
+                InvalidPlc::SegmentThroughPolygon { facets: f, segment } => {
+                    format!(
+                        "invalid PLC: segment {} passes through {}",
+                        edge(segment),
+                        facets(f)
+                    )
+                }
+                InvalidPlc::PolygonsIntersect { first, second } => {
+                    format!(
+                        "invalid PLC: {} intersects {}",
+                        facets(first),
+                        facets(second)
+                    )
+                }
+            },
+            Failure::GaveUp(gave_up) => match gave_up {
+                GaveUp::SegmentTooShort { segment } => format!(
+                    "gave up: segment {} cannot be divided any further; facets probably intersect near it",
+                    edge(segment)
+                ),
+                GaveUp::NotFlat { facets: f, reason } => {
+                    format!("gave up: polygon not exactly flat, {reason}: {}", facets(f))
+                }
+                GaveUp::Stuck {
+                    facets: f,
+                    crossing,
+                } => {
+                    format!(
+                        "gave up: flips with rounded times stuck, {crossing} crossing tetrahedra left: {}",
+                        facets(f)
+                    )
+                }
+                GaveUp::NotDelaunay { facets: f, faces } => {
+                    format!(
+                        "gave up: flips left {faces} faces that are not locally Delaunay: {}",
+                        facets(f)
+                    )
+                }
+                GaveUp::FlipOrder { facets: f } => {
+                    format!(
+                        "gave up: an exactly ordered flip is impossible (intersections, or a bug): {}",
+                        facets(f)
+                    )
+                }
+                GaveUp::NothingInside => self.to_string(),
+            },
+            Failure::Delaunay(_) | Failure::Plc(_) => self.to_string(),
+        }
+    }
 }
 
 /// Intersections that recovery runs into. Vertex ids count from 0; facets are indices into [`crate::plc::Plc::facets`].

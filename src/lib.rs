@@ -2,6 +2,7 @@
 //! Si & Shewchuk, *Incrementally Constructing and Updating Constrained Delaunay Tetrahedralizations with Finite
 //! Precision Coordinates*.
 
+pub mod cdt;
 pub mod delaunay;
 pub mod error;
 pub mod format;
@@ -10,4 +11,5 @@ pub mod number;
 pub mod plc;
 pub mod predicate;
 pub mod recover;
+pub mod report;
 pub mod verify;

@@ -1,2 +1,352 @@
-//! The command line program.
-fn main() {}
+//! The command line program: arguments → library → files. No algorithm here.
+
+use clap::{Parser, Subcommand, ValueEnum};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use tetflip::cdt::{Options, tetrahedralize};
+use tetflip::delaunay::delaunay;
+use tetflip::error::Failure;
+use tetflip::format::{read_mesh, read_plc, write_mesh};
+use tetflip::mesh::{ExportedFace, ExportedMesh, TetMesh, VertexId};
+use tetflip::plc::{Complex, Plc};
+use tetflip::predicate::DoublePoints;
+use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::report::Report;
+use tetflip::verify::{Domain, VerifyOptions, verify};
+
+/// Constrained Delaunay tetrahedralizations, by cavity retriangulation or by exactly ordered bistellar flips.
+///
+/// Exit status: 0 success; 1 the algorithm gave up or a verification failed; 2 bad input or usage.
+#[derive(Parser)]
+#[command(version, max_term_width = 110)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Make the CDT of a PLC.
+    Mesh(MeshArguments),
+    /// Check a mesh, whoever wrote it, against its PLC, in exact arithmetic.
+    Verify(VerifyArguments),
+    /// Make the Delaunay tetrahedralization of the vertices of a file, ignoring its facets.
+    Delaunay(DelaunayArguments),
+}
+
+#[derive(clap::Args)]
+struct MeshArguments {
+    /// The PLC: .poly, .smesh, .node, .off or .stl.
+    input: PathBuf,
+    /// Where to write the mesh: NAME.node writes NAME.node, .ele, .face and .edge; NAME.vtu is for ParaView.
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// How polygons are inserted.
+    #[arg(long, value_enum, default_value_t = InsertArgument::Flip)]
+    insert: InsertArgument,
+    /// The number type of the flip queue (with --insert flip).
+    #[arg(long, value_enum, default_value_t = TimesArgument::Exact)]
+    times: TimesArgument,
+    /// Keep the whole convex hull instead of what the facets enclose.
+    #[arg(long)]
+    hull: bool,
+    /// Do not merge coplanar adjacent facets: constrain their common edges, too.
+    #[arg(long)]
+    no_merge: bool,
+    /// Verify the mesh exactly before it is written.
+    #[arg(long)]
+    verify: bool,
+    /// Write counts and seconds per phase as JSON.
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<PathBuf>,
+    /// No progress and no summary.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+#[derive(clap::Args)]
+struct VerifyArguments {
+    /// The PLC.
+    plc: PathBuf,
+    /// The mesh: NAME.node, with NAME.ele and, if there, NAME.face and NAME.edge beside it.
+    mesh: PathBuf,
+    /// Which part of space the mesh is meant to fill.
+    #[arg(long, value_enum, default_value_t = DomainArgument::Auto)]
+    domain: DomainArgument,
+    /// How far a Steiner point may be from its segment or facet, in units in the last place of the largest coordinate.
+    #[arg(long, default_value_t = VerifyOptions::default().tolerance)]
+    tolerance: f64,
+    /// Accept facets with one marker as merged if the angle between them is at least this many degrees (TetGen: 179.9).
+    #[arg(long)]
+    merge_angle: Option<f64>,
+    /// Say nothing; only the exit status.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+#[derive(clap::Args)]
+struct DelaunayArguments {
+    /// The points: any input format.
+    input: PathBuf,
+    /// Where to write the mesh.
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// No summary.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum InsertArgument {
+    /// Cavity retriangulation (paper §3.1).
+    Cavity,
+    /// Bistellar flips (paper §3.2).
+    Flip,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum TimesArgument {
+    /// Single precision; can fail.
+    F32,
+    /// Double precision, as in the paper; can fail.
+    F64,
+    /// Exact dyadic numbers.
+    Exact,
+    /// Exact GMP rationals (only if built with the feature rug).
+    Rug,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum DomainArgument {
+    /// The inside if the mesh is bounded by facets, else the hull.
+    Auto,
+    /// The convex hull.
+    Hull,
+    /// What the facets enclose.
+    Inside,
+}
+
+/// A failure with its exit status.
+struct Stop {
+    message: String,
+    status: u8,
+}
+
+impl Stop {
+    fn input(message: impl ToString) -> Stop {
+        Stop {
+            message: message.to_string(),
+            status: 2,
+        }
+    }
+
+    fn failed(message: impl ToString) -> Stop {
+        Stop {
+            message: message.to_string(),
+            status: 1,
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Mesh(arguments) => mesh(&arguments),
+        Command::Verify(arguments) => verify_files(&arguments),
+        Command::Delaunay(arguments) => delaunay_of_file(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(stop) => {
+            eprintln!("tetflip: {}", stop.message);
+            ExitCode::from(stop.status)
+        }
+    }
+}
+
+fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
+    let options = Options {
+        insertion: insertion(arguments)?,
+        keep_hull: arguments.hull,
+        merge_coplanar: !arguments.no_merge,
+    };
+    let plc = read(&arguments.input)?;
+    let mut report = Report::default();
+    let bar = progress_bar(plc.facets.len(), arguments.quiet);
+    let result = tetrahedralize(&plc, &options, &mut report, &mut |done| {
+        bar.set_position(done as u64)
+    });
+    bar.finish_and_clear();
+    let outcome = match &result {
+        Ok(_) => "ok".to_owned(),
+        Err(failure) => failure.describe(&plc),
+    };
+    if let Some(path) = &arguments.report {
+        write_report(path, &arguments.input, &outcome, &report)?;
+    }
+    let mesh = result.map_err(|failure| Stop {
+        message: outcome,
+        status: if matches!(failure, Failure::GaveUp(_)) {
+            1
+        } else {
+            2
+        },
+    })?;
+    if arguments.verify {
+        let domain = if arguments.hull {
+            Domain::Hull
+        } else {
+            Domain::Inside
+        };
+        let verdict = verify(
+            &plc,
+            &mesh,
+            VerifyOptions {
+                domain,
+                ..VerifyOptions::default()
+            },
+        );
+        if !verdict.is_ok() {
+            return Err(Stop::failed(format!(
+                "the mesh is not a CDT of the input, nothing is written\n{verdict}"
+            )));
+        }
+    }
+    save(arguments.output.as_deref(), &mesh)?;
+    if !arguments.quiet {
+        println!(
+            "{} vertices ({} Steiner points), {} tetrahedra, {} faces on facets; {} flips{}",
+            mesh.vertices.len(),
+            report.steiner_points,
+            mesh.tets.len(),
+            mesh.faces.len(),
+            report.insertion_counts.flips.flips(),
+            if arguments.verify { "; verified" } else { "" },
+        );
+    }
+    Ok(())
+}
+
+fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
+    if arguments.insert == InsertArgument::Cavity {
+        return Ok(Insertion::Cavity);
+    }
+    Ok(Insertion::Flip(match arguments.times {
+        TimesArgument::F32 => Times::F32,
+        TimesArgument::F64 => Times::F64,
+        TimesArgument::Exact => Times::Exact,
+        #[cfg(feature = "rug")]
+        TimesArgument::Rug => Times::Rug,
+        #[cfg(not(feature = "rug"))]
+        TimesArgument::Rug => {
+            return Err(Stop::input(
+                "this program was built without GMP; build it with --features rug",
+            ));
+        }
+    }))
+}
+
+fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
+    let plc = read(&arguments.plc)?;
+    let mesh = read_mesh(&arguments.mesh).map_err(Stop::input)?;
+    let options = VerifyOptions {
+        domain: match arguments.domain {
+            DomainArgument::Auto => Domain::Auto,
+            DomainArgument::Hull => Domain::Hull,
+            DomainArgument::Inside => Domain::Inside,
+        },
+        tolerance: arguments.tolerance,
+        merge_angle: arguments.merge_angle,
+        ..VerifyOptions::default()
+    };
+    let verdict = verify(&plc, &mesh, options);
+    if !arguments.quiet {
+        print!("{verdict}");
+    }
+    if verdict.is_ok() {
+        Ok(())
+    } else {
+        Err(Stop::failed("the mesh is not a CDT of the PLC"))
+    }
+}
+
+fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop> {
+    let plc = read(&arguments.input)?;
+    let vertices_only = Plc {
+        first_index: plc.first_index,
+        vertices: plc.vertices,
+        ..Plc::default()
+    };
+    let complex = Complex::new(&vertices_only, true).map_err(Stop::input)?;
+    let points = DoublePoints::new(vertices_only.vertices);
+    let distinct: Vec<VertexId> = (0..complex.representative.len())
+        .map(VertexId::new)
+        .filter(|&v| complex.representative[v.index()] == v)
+        .collect();
+    let duplicates = complex.representative.len() - distinct.len();
+    let result = delaunay(&points, &distinct).map_err(Stop::input)?;
+    let tets: Vec<[VertexId; 4]> = result
+        .mesh
+        .finite()
+        .map(|t| result.mesh.vertices(t))
+        .collect();
+    if let Some(path) = &arguments.output {
+        let mesh = ExportedMesh {
+            first_index: vertices_only.first_index,
+            vertices: points.as_slice().to_vec(),
+            faces: hull_faces(&result.mesh),
+            tets: tets.clone(),
+            ..ExportedMesh::default()
+        };
+        save(Some(path), &mesh)?;
+    }
+    if !arguments.quiet {
+        println!(
+            "{} distinct vertices ({duplicates} duplicates merged), {} tetrahedra",
+            distinct.len(),
+            tets.len()
+        );
+    }
+    Ok(())
+}
+
+/// The triangles of the convex hull, seen from outside.
+fn hull_faces(mesh: &TetMesh) -> Vec<ExportedFace> {
+    let ghosts = mesh
+        .all()
+        .filter_map(|t| Some(t.corner(mesh.slot_of(t, VertexId::INFINITE)?)));
+    ghosts
+        .map(|c| ExportedFace {
+            vertices: mesh.facet(mesh.twin(c)),
+            marker: 0,
+        })
+        .collect()
+}
+
+fn read(path: &Path) -> Result<Plc, Stop> {
+    read_plc(path).map_err(|error| Stop::input(format!("{}: {error}", path.display())))
+}
+
+fn save(path: Option<&Path>, mesh: &ExportedMesh) -> Result<(), Stop> {
+    match path {
+        Some(path) => write_mesh(path, mesh).map(|_| ()).map_err(Stop::input),
+        None => Ok(()),
+    }
+}
+
+fn write_report(path: &Path, input: &Path, outcome: &str, report: &Report) -> Result<(), Stop> {
+    let mut value = serde_json::to_value(report).map_err(Stop::input)?;
+    value["input"] = input.display().to_string().into();
+    value["outcome"] = outcome.into();
+    let text = serde_json::to_string_pretty(&value).map_err(Stop::input)?;
+    std::fs::write(path, text + "\n")
+        .map_err(|error| Stop::input(format!("{}: {error}", path.display())))
+}
+
+/// A bar on stderr, where that is a terminal.
+fn progress_bar(polygons: usize, quiet: bool) -> indicatif::ProgressBar {
+    if quiet {
+        return indicatif::ProgressBar::hidden();
+    }
+    // Hidden by itself where stderr is no terminal.
+    indicatif::ProgressBar::new(polygons as u64)
+}

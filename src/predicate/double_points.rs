@@ -104,19 +104,6 @@ impl DoublePoints {
         &self.points
     }
 
-    /// Adds a point.
-    ///
-    /// # Panics
-    /// If a coordinate is not finite.
-    pub fn push(&mut self, p: [f64; 3]) -> VertexId {
-        for x in p {
-            assert!(x.is_finite(), "coordinates are finite");
-            self.range.include(x);
-        }
-        self.points.push(p);
-        VertexId::new(self.points.len() - 1)
-    }
-
     #[inline]
     fn at<N: Number>(&self, v: VertexId) -> Vec3<N> {
         Vec3::from_f64(self.points[v.index()])
@@ -163,6 +150,21 @@ impl PointStore for DoublePoints {
 
     fn coordinates<N: Number>(&self, v: VertexId) -> Vec3<N> {
         self.at(v)
+    }
+
+    /// # Panics
+    /// If a coordinate is not finite.
+    fn push(&mut self, p: [f64; 3]) -> VertexId {
+        for x in p {
+            assert!(x.is_finite(), "coordinates are finite");
+            self.range.include(x);
+        }
+        self.points.push(p);
+        VertexId::new(self.points.len() - 1)
+    }
+
+    fn truncate(&mut self, n: usize) {
+        self.points.truncate(n);
     }
 
     /// Rounds each coordinate of p + t(q−p) to a double, so the point is off the line by about half an ulp, or not at

@@ -24,6 +24,12 @@ pub trait PointStore {
     /// The coordinates as numbers of type `N`: exact if `N` is.
     fn coordinates<N: Number>(&self, v: VertexId) -> Vec3<N>;
 
+    /// Adds a point with double coordinates.
+    fn push(&mut self, p: [f64; 3]) -> VertexId;
+
+    /// Removes all points from index `n` on.
+    fn truncate(&mut self, n: usize);
+
     /// Adds the point p + t(q−p), 0 < t < 1, as exactly as the store's coordinates allow.
     fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: f64) -> VertexId;
 

@@ -2,6 +2,7 @@
 //! a time, then inside and outside.
 
 pub mod cavity;
+pub mod domain;
 pub mod flips;
 pub mod missing;
 pub mod polygons;

@@ -102,7 +102,6 @@ enum RegionFailure {
     Stuck(usize),
     NotDelaunay(usize),
     Impossible,
-    Incompatible,
 }
 
 impl<P: PointStore> PolygonInsertion<'_, P> {

@@ -143,14 +143,7 @@ impl<'a> Group<'a> {
         };
         let areas = facets
             .iter()
-            .map(|&f| {
-                Area::new(
-                    case.points,
-                    axes,
-                    &edges_of(f),
-                    &case.input.facets[f].holes,
-                )
-            })
+            .map(|&f| Area::new(case.points, axes, &edges_of(f), &case.input.facets[f].holes))
             .collect();
         let edges = distinct(facets.iter().flat_map(|&f| edges_of(f)));
         let own = facets

@@ -1,0 +1,272 @@
+//! The pipeline: a PLC in, its CDT out, one call per phase.
+//!
+//! ```text
+//! Plc ─ Complex::new ─ delaunay ─ recover_segments ─ insert_polygons ─ mark_domain ─ ExportedMesh
+//! ```
+
+use crate::delaunay::delaunay;
+use crate::error::{Failure, GaveUp};
+use crate::mesh::{ExportedEdge, ExportedFace, ExportedMesh, Incidence, TetId, TetMesh, VertexId};
+use crate::plc::{Complex, Plc};
+use crate::predicate::{DoublePoints, PointStore};
+use crate::recover::cavity::face;
+use crate::recover::domain::{DomainMarks, keeps_edge, mark_domain};
+use crate::recover::polygons::{Insertion, PolygonCounts, PolygonInsertion, Subpolygons, Times};
+use crate::recover::segments::{Subsegments, recover_segments};
+use crate::report::{Phase, Report};
+
+/// What the user chooses.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Options {
+    /// How polygons are inserted.
+    pub insertion: Insertion,
+    /// Keep everything in the convex hull of the vertices, instead of what the facets enclose.
+    pub keep_hull: bool,
+    /// Merge facets that are exactly coplanar, adjacent and equally marked into one polygon, so that their common edges
+    /// are not constrained.
+    pub merge_coplanar: bool,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            insertion: Insertion::Flip(Times::Exact),
+            keep_hull: false,
+            merge_coplanar: true,
+        }
+    }
+}
+
+/// A tetrahedralization of the convex hull of a PLC's vertices in which all segments, and after
+/// [`Cdt::insert_polygons`] all polygons, are unions of edges and triangles.
+#[derive(Clone, Debug)]
+pub struct Cdt<P = DoublePoints> {
+    /// The vertices: those of the input, then Steiner points.
+    pub points: P,
+    /// The tetrahedra, ghosts included.
+    pub mesh: TetMesh,
+    complex: Complex,
+    incidence: Incidence,
+    subsegments: Subsegments,
+    subpolygons: Subpolygons,
+}
+
+impl Cdt<DoublePoints> {
+    /// The first phases: the checked complex, the Delaunay tetrahedralization of its vertices, and Steiner points until
+    /// all segments are there (paper §2). Steiner points are rounded to doubles.
+    ///
+    /// # Errors
+    /// [`Failure`], naming the vertices, segments or facets.
+    pub fn with_segments(
+        plc: &Plc,
+        merge_coplanar: bool,
+        report: &mut Report,
+    ) -> Result<Self, Failure> {
+        report.input_vertices = plc.vertices.len();
+        report.input_facets = plc.facets.len();
+        let complex = report.time(Phase::Complex, |_| Complex::new(plc, merge_coplanar))?;
+        report.segments = complex.segments.len();
+        report.polygons = complex.polygons.len();
+        let mut points = DoublePoints::new(plc.vertices.clone());
+        let distinct: Vec<VertexId> = (0..points.len())
+            .map(VertexId::new)
+            .filter(|&v| complex.representative[v.index()] == v)
+            .collect();
+        report.duplicate_vertices = points.len() - distinct.len();
+        let mut delaunay = report.time(Phase::Delaunay, |_| delaunay(&points, &distinct))?;
+        report.delaunay_tets = delaunay.mesh.finite().count();
+        let recovered = report.time(Phase::Segments, |_| {
+            recover_segments(&complex, &mut points, &mut delaunay)
+        });
+        report.steiner_points = points.len() - plc.vertices.len();
+        let (subsegments, incidence) = recovered?;
+        Ok(Cdt {
+            points,
+            mesh: delaunay.mesh,
+            complex,
+            incidence,
+            subsegments,
+            subpolygons: Subpolygons::default(),
+        })
+    }
+}
+
+impl<P: PointStore> Cdt<P> {
+    /// Inserts all polygons of the complex (paper §3). `progress` is told how many of them are done.
+    ///
+    /// # Errors
+    /// The first polygon that cannot be inserted, and why.
+    pub fn insert_polygons(
+        &mut self,
+        insertion: Insertion,
+        report: &mut Report,
+        progress: &mut dyn FnMut(usize),
+    ) -> Result<PolygonCounts, Failure> {
+        report.insertion = Some(insertion);
+        report.time(Phase::Polygons, |report| {
+            let mut polygons = PolygonInsertion {
+                points: &self.points,
+                mesh: &mut self.mesh,
+                incidence: &mut self.incidence,
+                complex: &self.complex,
+                subsegments: &self.subsegments,
+                subpolygons: &mut self.subpolygons,
+                insertion,
+                counts: PolygonCounts::default(),
+            };
+            let result = polygons.insert_all(progress);
+            report.insertion_counts = polygons.counts;
+            result.map(|()| polygons.counts)
+        })
+    }
+
+    /// The checked PLC.
+    pub fn complex(&self) -> &Complex {
+        &self.complex
+    }
+
+    /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are in
+    /// an order that depends on their vertices alone, so that equal meshes give equal files.
+    ///
+    /// # Errors
+    /// [`GaveUp::NothingInside`] if nothing would be left.
+    pub fn export(
+        &mut self,
+        plc: &Plc,
+        keep_hull: bool,
+        report: &mut Report,
+    ) -> Result<ExportedMesh, Failure> {
+        report.time(Phase::Domain, |report| {
+            let marks = mark_domain(
+                plc,
+                &mut self.points,
+                &self.mesh,
+                &self.subpolygons,
+                keep_hull,
+            );
+            let mut tets: Vec<([VertexId; 4], TetId)> = self
+                .mesh
+                .finite()
+                .filter(|t| marks.kept[t.index()])
+                .map(|t| (canonical(self.mesh.vertices(t)), t))
+                .collect();
+            if tets.is_empty() {
+                return Err(GaveUp::NothingInside.into());
+            }
+            tets.sort_unstable();
+            let mesh = ExportedMesh {
+                first_index: plc.first_index,
+                vertices: (0..self.points.len())
+                    .map(|v| self.points.rounded(VertexId::new(v)))
+                    .collect(),
+                regions: if marks.region.is_empty() {
+                    Vec::new()
+                } else {
+                    tets.iter().map(|(_, t)| marks.region[t.index()]).collect()
+                },
+                faces: self.faces(&marks),
+                edges: self.edges(&marks),
+                tets: tets.into_iter().map(|(v, _)| v).collect(),
+            };
+            report.output_tets = mesh.tets.len();
+            report.output_faces = mesh.faces.len();
+            Ok(mesh)
+        })
+    }
+
+    /// The subpolygons of the domain with their markers, and the faces of its boundary.
+    fn faces(&self, marks: &DomainMarks) -> Vec<ExportedFace> {
+        let mut faces = Vec::new();
+        for t in self.mesh.finite().filter(|t| marks.kept[t.index()]) {
+            for c in (0..4).map(|slot| t.corner(slot)) {
+                let n = self.mesh.neighbor(c);
+                let boundary = self.mesh.is_ghost(n) || !marks.kept[n.index()];
+                if !boundary && n < t {
+                    continue;
+                }
+                let vertices = face(self.mesh.facet(c));
+                let polygon = self.subpolygons.get(&vertices);
+                if polygon.is_some() || boundary {
+                    let marker = polygon.map_or(0, |&f| self.complex.polygons[f as usize].marker);
+                    faces.push(ExportedFace { vertices, marker });
+                }
+            }
+        }
+        faces.sort_unstable_by_key(|f| f.vertices);
+        faces
+    }
+
+    /// The subsegments of the domain with their markers.
+    fn edges(&self, marks: &DomainMarks) -> Vec<ExportedEdge> {
+        let mut edges = Vec::new();
+        for (s, segment) in self.complex.segments.iter().enumerate() {
+            let chain: Vec<VertexId> = self.subsegments.chain(s as u32).collect();
+            for w in chain
+                .windows(2)
+                .filter(|w| keeps_edge(&self.mesh, &self.incidence, marks, w[0], w[1]))
+            {
+                let mut vertices = [w[0], w[1]];
+                vertices.sort_unstable();
+                edges.push(ExportedEdge {
+                    vertices,
+                    marker: segment.marker,
+                });
+            }
+        }
+        edges.sort_unstable_by_key(|e| e.vertices);
+        edges
+    }
+}
+
+/// The even permutation of a tetrahedron that has its smallest vertex first and its second smallest second.
+fn canonical(mut v: [VertexId; 4]) -> [VertexId; 4] {
+    let least = (0..4).min_by_key(|&i| v[i]).expect("four vertices");
+    // A double transposition brings it to the front and keeps the orientation.
+    v = [v[least], v[least ^ 1], v[least ^ 2], v[least ^ 3]];
+    let second = (1..4).min_by_key(|&i| v[i]).expect("three vertices");
+    v[1..].rotate_left(second - 1);
+    v
+}
+
+/// The whole pipeline. `report` is filled as far as the run came; `progress` is told how many polygons are done.
+///
+/// # Errors
+/// [`Failure`]; there is no partial mesh.
+pub fn tetrahedralize(
+    plc: &Plc,
+    options: &Options,
+    report: &mut Report,
+    progress: &mut dyn FnMut(usize),
+) -> Result<ExportedMesh, Failure> {
+    let mut cdt = Cdt::with_segments(plc, options.merge_coplanar, report)?;
+    cdt.insert_polygons(options.insertion, report, progress)?;
+    cdt.export(plc, options.keep_hull, report)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn canonical_tetrahedra_keep_their_orientation() {
+        let ids = |v: [u32; 4]| v.map(VertexId);
+        assert_eq!(canonical(ids([3, 1, 0, 2])), ids([0, 1, 2, 3]).map(|v| v));
+        // All even permutations of 0123 are one tetrahedron, all odd ones the other.
+        let mut classes = std::collections::BTreeMap::new();
+        for code in 0..256u32 {
+            let v = [code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6];
+            let inversions = (0..4)
+                .flat_map(|i| (i + 1..4).map(move |j| (i, j)))
+                .filter(|&(i, j)| v[i] > v[j]);
+            let odd = inversions.count() % 2;
+            if (0..4).all(|x| v.contains(&x)) {
+                classes
+                    .entry(odd)
+                    .or_insert_with(std::collections::BTreeSet::new)
+                    .insert(canonical(ids(v)));
+            }
+        }
+        assert!(classes.values().all(|c| c.len() == 1));
+        assert_eq!(classes.len(), 2);
+    }
+}

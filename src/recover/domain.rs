@@ -1,0 +1,146 @@
+//! Inside and outside (paper §2: the polyhedra of the PLC): which tetrahedra are kept, and the region of each.
+//!
+//! The subpolygons divide the tetrahedra into components. Those connected to the ghosts are outside; those that hold a
+//! hole point are holes; the rest is the domain. A region point gives its attribute to its component.
+
+use super::cavity::face;
+use super::polygons::Subpolygons;
+use crate::mesh::{Incidence, TetId, TetMesh};
+use crate::plc::Plc;
+use crate::predicate::PointStore;
+
+/// Which tetrahedra are in the domain, and their region attributes.
+#[derive(Clone, Debug, Default)]
+pub struct DomainMarks {
+    /// Whether a tetrahedron is kept, by id.
+    pub kept: Vec<bool>,
+    /// The region attribute of a tetrahedron, by id; empty if the PLC has no region points.
+    pub region: Vec<f64>,
+}
+
+/// Divides the mesh. With `keep_hull` everything in the convex hull is kept. Linear time.
+pub fn mark_domain<P: PointStore>(
+    plc: &Plc,
+    points: &mut P,
+    mesh: &TetMesh,
+    subpolygons: &Subpolygons,
+    keep_hull: bool,
+) -> DomainMarks {
+    let mut flood = Flood {
+        mesh,
+        subpolygons,
+        component: vec![u32::MAX; mesh.capacity()],
+    };
+    let mut kept_component = vec![keep_hull];
+    flood.fill(mesh.all().filter(|&t| mesh.is_ghost(t)).collect(), 0);
+    for t in mesh.finite() {
+        if flood.component[t.index()] == u32::MAX {
+            let id = kept_component.len() as u32;
+            kept_component.push(true);
+            flood.fill(vec![t], id);
+        }
+    }
+    let component = flood.component;
+    if !keep_hull {
+        for &hole in &plc.holes {
+            if let Some(t) = locate(points, mesh, hole) {
+                kept_component[component[t.index()] as usize] = false;
+            }
+        }
+    }
+    let mut attribute = vec![None; kept_component.len()];
+    for region in &plc.regions {
+        if let Some(t) = locate(points, mesh, region.point) {
+            attribute[component[t.index()] as usize].get_or_insert(region.attribute);
+        }
+    }
+    let of = |t: usize| component[t] as usize;
+    let alive = |t: usize| component[t] != u32::MAX;
+    DomainMarks {
+        kept: (0..component.len())
+            .map(|t| alive(t) && kept_component[of(t)] && !mesh.is_ghost(TetId::new(t)))
+            .collect(),
+        region: if plc.regions.is_empty() {
+            Vec::new()
+        } else {
+            (0..component.len())
+                .map(|t| {
+                    if alive(t) {
+                        attribute[of(t)].unwrap_or(0.0)
+                    } else {
+                        0.0
+                    }
+                })
+                .collect()
+        },
+    }
+}
+
+struct Flood<'a> {
+    mesh: &'a TetMesh,
+    subpolygons: &'a Subpolygons,
+    component: Vec<u32>,
+}
+
+impl Flood<'_> {
+    fn fill(&mut self, mut stack: Vec<TetId>, id: u32) {
+        for &t in &stack {
+            self.component[t.index()] = id;
+        }
+        while let Some(t) = stack.pop() {
+            for slot in 0..4 {
+                let c = t.corner(slot);
+                let n = self.mesh.neighbor(c);
+                if self.component[n.index()] == u32::MAX
+                    && !self.subpolygons.contains_key(&face(self.mesh.facet(c)))
+                {
+                    self.component[n.index()] = id;
+                    stack.push(n);
+                }
+            }
+        }
+    }
+}
+
+/// A finite tetrahedron that contains the point, if it is in the convex hull. A walk, which need not end in a
+/// constrained tetrahedralization, then a search of all tetrahedra.
+fn locate<P: PointStore>(points: &mut P, mesh: &TetMesh, point: [f64; 3]) -> Option<TetId> {
+    let n = points.len();
+    let p = points.push(point);
+    let outward = |t: TetId| {
+        let v = mesh.vertices(t);
+        (0..4).find(|&slot| {
+            let mut moved = v;
+            moved[slot] = p;
+            points.orient3d(moved).is_negative()
+        })
+    };
+    let mut found = None;
+    let mut at = mesh.finite().next();
+    for _ in 0..1000 {
+        let Some(t) = at else { break };
+        match outward(t) {
+            None => {
+                found = Some(t);
+                break;
+            }
+            Some(slot) => at = Some(mesh.neighbor(t.corner(slot))).filter(|&n| !mesh.is_ghost(n)),
+        }
+    }
+    let found = found.or_else(|| mesh.finite().find(|&t| outward(t).is_none()));
+    points.truncate(n);
+    found
+}
+
+/// Whether the edge ab is an edge of a kept tetrahedron.
+pub fn keeps_edge(
+    mesh: &TetMesh,
+    incidence: &Incidence,
+    marks: &DomainMarks,
+    a: crate::mesh::VertexId,
+    b: crate::mesh::VertexId,
+) -> bool {
+    incidence
+        .tet_at_edge(mesh, a, b)
+        .is_some_and(|t| mesh.around(t, a, b).any(|t| marks.kept[t.index()]))
+}

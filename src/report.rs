@@ -1,0 +1,83 @@
+//! What a run did: counts and seconds per phase, as plain documented structs. The only clock of the library is here.
+
+use crate::recover::polygons::{Insertion, PolygonCounts};
+use serde::Serialize;
+use std::time::Instant;
+
+/// The phases of the pipeline, in order.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Phase {
+    /// From the PLC to its checked complex.
+    Complex,
+    /// The Delaunay tetrahedralization of the vertices.
+    Delaunay,
+    /// Segment recovery.
+    Segments,
+    /// Polygon insertion.
+    Polygons,
+    /// Inside and outside, and the arrays for output.
+    Domain,
+}
+
+/// Wall clock seconds per phase.
+#[derive(Clone, Copy, Default, Debug, Serialize)]
+pub struct Seconds {
+    /// From the PLC to its checked complex.
+    pub complex: f64,
+    /// The Delaunay tetrahedralization of the vertices.
+    pub delaunay: f64,
+    /// Segment recovery.
+    pub segments: f64,
+    /// Polygon insertion.
+    pub polygons: f64,
+    /// Inside and outside, and the arrays for output.
+    pub domain: f64,
+}
+
+/// Counts and seconds of one run.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Report {
+    /// The algorithm, and the number type of its flip times.
+    pub insertion: Option<Insertion>,
+    /// Vertices of the input, duplicates included.
+    pub input_vertices: usize,
+    /// Vertices that have the coordinates of an earlier one.
+    pub duplicate_vertices: usize,
+    /// Facets of the input.
+    pub input_facets: usize,
+    /// Segments after coplanar facets were merged.
+    pub segments: usize,
+    /// Polygons after coplanar facets were merged.
+    pub polygons: usize,
+    /// Tetrahedra of the Delaunay tetrahedralization of the input's vertices, without ghosts.
+    pub delaunay_tets: usize,
+    /// Steiner points, all of them on segments.
+    pub steiner_points: usize,
+    /// What polygon insertion did.
+    pub insertion_counts: PolygonCounts,
+    /// Tetrahedra of the output.
+    pub output_tets: usize,
+    /// Subpolygons of the output (and hull faces, where the hull is kept).
+    pub output_faces: usize,
+    /// Seconds per phase; a phase that was not reached has 0.
+    pub seconds: Seconds,
+}
+
+impl Report {
+    /// Runs one phase and adds its time.
+    pub(crate) fn time<T>(&mut self, phase: Phase, run: impl FnOnce(&mut Report) -> T) -> T {
+        let start = Instant::now();
+        let result = run(self);
+        let elapsed = start.elapsed().as_secs_f64();
+        let seconds = &mut self.seconds;
+        *match phase {
+            Phase::Complex => &mut seconds.complex,
+            Phase::Delaunay => &mut seconds.delaunay,
+            Phase::Segments => &mut seconds.segments,
+            Phase::Polygons => &mut seconds.polygons,
+            Phase::Domain => &mut seconds.domain,
+        } += elapsed;
+        result
+    }
+}
