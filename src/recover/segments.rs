@@ -144,7 +144,6 @@ pub fn recover_segments<P: PointStore>(
 ) -> Result<(Subsegments, Incidence), Failure> {
     let incidence = Incidence::new(&delaunay.mesh, points.len());
     let mut recovery = SegmentRecovery {
-        acute: acute_angles(complex, points),
         subsegments: Subsegments::new(complex, points.len()),
         points,
         delaunay,
@@ -168,8 +167,6 @@ struct SegmentRecovery<'a, P> {
     subsegments: Subsegments,
     /// Subsegments to look at.
     missing: Vec<[VertexId; 2]>,
-    /// For each vertex of the input, the smallest angle between two of its segments, if acute.
-    acute: Vec<Option<f64>>,
 }
 
 impl<P: PointStore> SegmentRecovery<'_, P> {
@@ -241,7 +238,6 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         let subsegment = Subsegment {
             ends: ends.map(|v| self.points.rounded(v)),
             range,
-            acute: ends.map(|v| self.acute[v.index()]),
         };
         let t = split_parameter(&subsegment, reference).ok_or(too_short.clone())?;
         let v = self.points.push_on_segment(ends[0], ends[1], t);
@@ -282,33 +278,4 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
 fn edges_of(mesh: &TetMesh, t: TetId) -> [[VertexId; 2]; 6] {
     let [a, b, c, d] = mesh.vertices(t);
     [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]
-}
-
-/// Angles below this make a vertex acute: two segments can then encroach upon each other for ever.
-const ACUTE: f64 = std::f64::consts::FRAC_PI_3;
-/// A vertex with more segments than this is acute without further measurement: so many directions cannot be far apart.
-const MANY_SEGMENTS: usize = 64;
-
-/// For each vertex, the smallest angle between two of its segments, where it is below [`ACUTE`].
-fn acute_angles<P: PointStore>(complex: &Complex, points: &P) -> Vec<Option<f64>> {
-    let mut neighbours: Vec<Vec<VertexId>> = vec![Vec::new(); points.len()];
-    for segment in &complex.segments {
-        let [a, b] = segment.ends;
-        neighbours[a.index()].push(b);
-        neighbours[b.index()].push(a);
-    }
-    let smallest = |v: usize, others: &[VertexId]| {
-        if others.len() > MANY_SEGMENTS {
-            return Some(1e-4);
-        }
-        let p = points.rounded(VertexId::new(v));
-        let pairs = (0..others.len()).flat_map(|i| (0..i).map(move |j| (others[i], others[j])));
-        let angles = pairs.map(|(a, b)| split::angle(p, points.rounded(a), points.rounded(b)));
-        angles.filter(|&angle| angle < ACUTE).min_by(f64::total_cmp)
-    };
-    neighbours
-        .iter()
-        .enumerate()
-        .map(|(v, others)| smallest(v, others))
-        .collect()
 }
