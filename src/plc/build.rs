@@ -1,0 +1,179 @@
+//! From the input to a checked [`Complex`] (paper §2): duplicate vertices merged, every facet a polygon with known sides,
+//! coplanar neighbours merged, every segment once.
+//!
+//! O(n log n) for n triangles and for simple polygons with short edges; see [`super::crossing`] and
+//! [`super::subdivision`] for what facets of many edges cost.
+
+use super::facet::{FacetInput, undirected};
+use super::{Complex, EdgeName, FacetName, Plc, PlcError, Polygon, Segment, VertexName, merge};
+use crate::mesh::VertexId;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::hash_map::Entry;
+
+impl Complex {
+    /// Checks a PLC. With `merge_coplanar`, facets that meet in an edge of theirs alone, have the same marker and lie
+    /// exactly on one plane become one polygon, and the edges between them are no longer segments, unless they were given
+    /// as segments or two-vertex polygons.
+    ///
+    /// An edge of a facet that bounds no part of its area (it dangles outside, or lies in a hole) is a segment but no
+    /// edge of the polygon. Intersections between different facets and segments are not looked for, except facets that
+    /// are given twice, and, when merging, those that overlap beside a common edge.
+    pub fn new(plc: &Plc, merge_coplanar: bool) -> Result<Complex, PlcError> {
+        check_points(plc)?;
+        let representative = representatives(&plc.vertices);
+        let given = given_segments(plc, &representative)?;
+        let mut segments = Segments::default();
+        let mut explicit: FxHashSet<_> = given.iter().map(|s| undirected(s.ends)).collect();
+        let mut polygons = Vec::new();
+        for index in 0..plc.facets.len() {
+            let facet = FacetInput::new(plc, index, &representative)?;
+            for ends in facet.edges() {
+                segments.add(Segment { ends, marker: 0 });
+            }
+            explicit.extend(floating_edges(&facet));
+            if facet.is_area() {
+                let polygon = facet.polygon()?;
+                explicit.extend(loose_edges(&facet, &polygon));
+                polygons.push(polygon);
+            }
+        }
+        given.into_iter().for_each(|segment| segments.add(segment));
+        check_different(plc, &polygons)?;
+        let mut segments = segments.list;
+        if merge_coplanar {
+            let merged = merge::merge(plc, polygons, &explicit)?;
+            polygons = merged.polygons;
+            check_different(plc, &polygons)?;
+            segments.retain(|s| !merged.dropped.contains(&undirected(s.ends)));
+        }
+        Ok(Complex {
+            representative,
+            segments,
+            polygons,
+        })
+    }
+}
+
+fn check_points(plc: &Plc) -> Result<(), PlcError> {
+    let infinite = |p: &[f64; 3]| !p.iter().all(|x| x.is_finite());
+    if let Some(i) = plc.vertices.iter().position(infinite) {
+        let vertex = VertexName::new(plc, VertexId::new(i));
+        return Err(PlcError::VertexNotFinite { vertex });
+    }
+    let regions: Vec<[f64; 3]> = plc.regions.iter().map(|r| r.point).collect();
+    let facet_holes: Vec<[f64; 3]> = plc
+        .facets
+        .iter()
+        .flat_map(|f| f.holes.iter().copied())
+        .collect();
+    for (kind, points) in [
+        ("hole", &plc.holes),
+        ("region", &regions),
+        ("facet hole", &facet_holes),
+    ] {
+        if let Some(index) = points.iter().position(infinite) {
+            return Err(PlcError::PointNotFinite { kind, index });
+        }
+    }
+    Ok(())
+}
+
+/// The first vertex with the coordinates of each one, where −0 = 0.
+fn representatives(vertices: &[[f64; 3]]) -> Vec<VertexId> {
+    let mut first = FxHashMap::default();
+    let ids = vertices.iter().enumerate().map(|(i, point)| {
+        let key = point.map(|x| (x + 0.0).to_bits());
+        *first.entry(key).or_insert_with(|| VertexId::new(i))
+    });
+    ids.collect()
+}
+
+/// The segments that the input gives for themselves, between representatives.
+fn given_segments(plc: &Plc, representative: &[VertexId]) -> Result<Vec<Segment>, PlcError> {
+    let check = |segment: &Segment| {
+        let name = EdgeName::new(plc, segment.ends);
+        let mut ends = segment.ends;
+        for v in &mut ends {
+            let found = representative.get(v.index());
+            *v = *found.ok_or_else(|| PlcError::NoSuchSegmentEnd {
+                segment: name,
+                vertex: VertexName::new(plc, *v),
+            })?;
+        }
+        if ends[0] == ends[1] {
+            return Err(PlcError::DegenerateSegment { segment: name });
+        }
+        Ok(Segment { ends, ..*segment })
+    };
+    plc.segments.iter().map(check).collect()
+}
+
+/// The two-vertex polygons of a facet.
+fn floating_edges(facet: &FacetInput) -> Vec<[VertexId; 2]> {
+    let pairs = facet
+        .polygons
+        .iter()
+        .filter_map(|p| <[VertexId; 2]>::try_from(&p[..]).ok());
+    pairs.map(undirected).collect()
+}
+
+/// The edges of a facet that are no edges of its polygon.
+fn loose_edges(facet: &FacetInput, polygon: &Polygon) -> Vec<[VertexId; 2]> {
+    let is_edge = |[a, b]: [VertexId; 2]| {
+        [[a, b], [b, a]]
+            .iter()
+            .any(|e| polygon.edges.binary_search(e).is_ok())
+    };
+    facet
+        .edges()
+        .filter(|&e| !is_edge(e))
+        .map(undirected)
+        .collect()
+}
+
+/// No two polygons have the same edges with the same sides, as seen from one side or from both.
+fn check_different(plc: &Plc, polygons: &[Polygon]) -> Result<(), PlcError> {
+    let mut seen = FxHashMap::default();
+    for polygon in polygons {
+        let mut reversed: Vec<_> = polygon.edges.iter().map(|&[a, b]| [b, a]).collect();
+        reversed.sort_unstable();
+        let key = reversed.min(polygon.edges.clone());
+        match seen.entry(key) {
+            Entry::Vacant(entry) => {
+                entry.insert(polygon.facets[0]);
+            }
+            Entry::Occupied(entry) => {
+                return Err(PlcError::SameFacet {
+                    first: FacetName::new(plc, *entry.get()),
+                    second: FacetName::new(plc, polygon.facets[0]),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Segments by their ends, in order of first appearance.
+#[derive(Default)]
+struct Segments {
+    list: Vec<Segment>,
+    index: FxHashMap<[VertexId; 2], usize>,
+}
+
+impl Segments {
+    /// Adds a segment, or gives its marker to the one that is there if that has none.
+    fn add(&mut self, segment: Segment) {
+        match self.index.entry(undirected(segment.ends)) {
+            Entry::Vacant(entry) => {
+                entry.insert(self.list.len());
+                self.list.push(segment);
+            }
+            Entry::Occupied(entry) => {
+                let marker = &mut self.list[*entry.get()].marker;
+                if *marker == 0 {
+                    *marker = segment.marker;
+                }
+            }
+        }
+    }
+}

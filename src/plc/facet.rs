@@ -1,0 +1,279 @@
+//! One facet of the input as a [`Polygon`]: which checks it must pass, and on which side of its edges its area lies.
+//!
+//! Triangles and other simple polygons keep the order of their corners as the counterclockwise one. Every other facet
+//! (several polygons, hole points, floating edges and vertices, slits) goes through a planar subdivision
+//! ([`super::subdivision`]); it is counterclockwise as its first polygon with a non-zero signed area is.
+
+use super::crossing::{self, Conflict};
+use super::frame::{self, Flatness};
+use super::plane::{Projected, Projection, area_sign, collinear};
+use super::subdivision;
+use super::{EdgeName, FacetName, Plc, PlcError, Polygon, VertexName};
+use crate::mesh::VertexId;
+use crate::number::Sign;
+
+/// The polygons of a facet after duplicate vertices have been merged.
+pub(super) struct FacetInput<'a> {
+    /// The whole input.
+    pub plc: &'a Plc,
+    /// The facet's index.
+    pub index: usize,
+    /// Its polygons, checked by [`FacetInput::new`].
+    pub polygons: Vec<Vec<VertexId>>,
+}
+
+impl<'a> FacetInput<'a> {
+    /// Maps the corners to their representatives and checks that each polygon is one.
+    pub fn new(
+        plc: &'a Plc,
+        index: usize,
+        representative: &[VertexId],
+    ) -> Result<FacetInput<'a>, PlcError> {
+        let facet = || FacetName::new(plc, index);
+        let given = &plc.facets[index].polygons;
+        if given.is_empty() {
+            return Err(PlcError::Empty { facet: facet() });
+        }
+        let mut polygons = Vec::with_capacity(given.len());
+        for corners in given {
+            if corners.is_empty() {
+                return Err(PlcError::Empty { facet: facet() });
+            }
+            let map = |&v: &VertexId| {
+                let found = representative.get(v.index()).copied();
+                found.ok_or_else(|| PlcError::NoSuchVertex {
+                    facet: facet(),
+                    vertex: VertexName::new(plc, v),
+                })
+            };
+            let polygon: Vec<VertexId> = corners.iter().map(map).collect::<Result<_, _>>()?;
+            let repeated = (0..polygon.len()).find(|&i| {
+                let previous = (i + polygon.len() - 1) % polygon.len();
+                i != previous && polygon[i] == polygon[previous]
+            });
+            if let Some(i) = repeated {
+                return Err(PlcError::RepeatedVertex {
+                    facet: facet(),
+                    vertex: VertexName::new(plc, corners[i]),
+                });
+            }
+            if polygon.len() >= 3 && sorted(polygon.clone()).len() < 3 {
+                return Err(PlcError::TooFewVertices { facet: facet() });
+            }
+            polygons.push(polygon);
+        }
+        Ok(FacetInput {
+            plc,
+            index,
+            polygons,
+        })
+    }
+
+    /// Whether some polygon is more than a segment or a vertex.
+    pub fn is_area(&self) -> bool {
+        self.polygons.iter().any(|p| p.len() >= 3)
+    }
+
+    /// The edges of all polygons in order, those of closed polygons as they are passed through.
+    pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> {
+        self.polygons.iter().flat_map(|p| {
+            let edges = match p.len() {
+                0 | 1 => 0,
+                2 => 1,
+                n => n,
+            };
+            (0..edges).map(move |i| [p[i], p[(i + 1) % p.len()]])
+        })
+    }
+
+    /// The polygon in the sense of the paper.
+    pub fn polygon(&self) -> Result<Polygon, PlcError> {
+        let facet = &self.plc.facets[self.index];
+        let [corners] = &self.polygons[..] else {
+            return self.general();
+        };
+        if !facet.holes.is_empty() {
+            return self.general();
+        }
+        match corners[..] {
+            [a, b, c] => self.triangle([a, b, c]),
+            _ if sorted(corners.clone()).len() == corners.len() => self.simple(corners),
+            _ => self.general(),
+        }
+    }
+
+    fn triangle(&self, frame: [VertexId; 3]) -> Result<Polygon, PlcError> {
+        if collinear(frame.map(|v| self.plc.vertices[v.index()])) {
+            return Err(PlcError::ZeroArea { facet: self.name() });
+        }
+        let [a, b, c] = frame;
+        Ok(self.finish(
+            vec![[a, b], [b, c], [c, a]],
+            sorted(frame.to_vec()),
+            frame,
+            true,
+        ))
+    }
+
+    /// A polygon without repeated corners.
+    fn simple(&self, corners: &[VertexId]) -> Result<Polygon, PlcError> {
+        let vertices = sorted(corners.to_vec());
+        let (frame, flat) = self.frame(&vertices)?;
+        let (plane, sign) = self.project(frame)?;
+        let edges: Vec<_> = self.edges().collect();
+        self.check_embedding(&plane, &edges, &[])?;
+        let walk: Vec<_> = corners.iter().map(|&v| plane.at(v)).collect();
+        let frame = oriented(frame, sign, area_sign(&walk));
+        Ok(self.finish(edges, vertices, frame, flat))
+    }
+
+    fn general(&self) -> Result<Polygon, PlcError> {
+        let all = sorted(self.polygons.concat());
+        let (frame, flat) = self.frame(&all)?;
+        let (plane, sign) = self.project(frame)?;
+        let mut edges: Vec<_> = self.edges().map(undirected).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let ends = sorted(edges.concat());
+        let floating: Vec<_> = all
+            .iter()
+            .copied()
+            .filter(|v| ends.binary_search(v).is_err())
+            .collect();
+        self.check_embedding(&plane, &edges, &floating)?;
+
+        let given = &self.plc.facets[self.index].holes;
+        let holes: Vec<_> = given.iter().map(|&p| plane.projection.point(p)).collect();
+        let area = subdivision::area(&plane, &edges, &floating, &holes);
+        let area = area.map_err(|e| PlcError::HoleOnEdge {
+            facet: self.name(),
+            hole: e.hole,
+            edge: EdgeName::new(self.plc, e.edge),
+        })?;
+        if area.edges.is_empty() {
+            let facet = self.name();
+            return Err(match area.holes_used {
+                true => PlcError::NothingLeft { facet },
+                false => PlcError::ZeroArea { facet },
+            });
+        }
+        // Edges and vertices outside the area do not belong to the polygon, nor to its frame.
+        let vertices = sorted([area.edges.concat(), area.floating].concat());
+        let (frame, flat, sign) = if vertices == all {
+            (frame, flat, sign)
+        } else {
+            let (frame, flat) = self.frame(&vertices)?;
+            (frame, flat, plane.orient(frame))
+        };
+        if sign.is_zero() {
+            return Err(PlcError::ZeroArea { facet: self.name() });
+        }
+        let turn = self.turn(&plane).unwrap_or(sign);
+        let mut edges = area.edges;
+        if turn.is_negative() {
+            edges.iter_mut().for_each(|edge| edge.reverse());
+        }
+        Ok(self.finish(edges, vertices, oriented(frame, sign, turn), flat))
+    }
+
+    /// The orientation of the first polygon that has one.
+    fn turn(&self, plane: &Projected) -> Option<Sign> {
+        let signs = self.polygons.iter().map(|polygon| {
+            let walk: Vec<_> = polygon.iter().map(|&v| plane.at(v)).collect();
+            area_sign(&walk)
+        });
+        signs.into_iter().find(|s| !s.is_zero())
+    }
+
+    /// The frame, and whether all vertices are exactly on its plane.
+    fn frame(&self, vertices: &[VertexId]) -> Result<([VertexId; 3], bool), PlcError> {
+        let points = &self.plc.vertices;
+        let frame = frame::choose(points, vertices);
+        let frame = frame.ok_or_else(|| PlcError::ZeroArea { facet: self.name() })?;
+        match frame::flatness(points, frame, vertices) {
+            Flatness::Flat => Ok((frame, true)),
+            Flatness::NearlyFlat => Ok((frame, false)),
+            Flatness::NotPlanar(vertex, distance) => Err(PlcError::NotPlanar {
+                facet: self.name(),
+                vertex: VertexName::new(self.plc, vertex),
+                distance,
+            }),
+        }
+    }
+
+    /// The projection that suits a frame, and the orientation of the frame in it.
+    fn project(&self, frame: [VertexId; 3]) -> Result<(Projected<'a>, Sign), PlcError> {
+        let points = &self.plc.vertices;
+        let triangle = frame.map(|v| points[v.index()]);
+        let (projection, sign) = Projection::of(triangle).expect("a frame is not collinear");
+        Ok((Projected { points, projection }, sign))
+    }
+
+    fn check_embedding(
+        &self,
+        plane: &Projected,
+        edges: &[[VertexId; 2]],
+        floating: &[VertexId],
+    ) -> Result<(), PlcError> {
+        let facet = || self.name();
+        // In a polygon that is not exactly flat an edge may stand upright on it.
+        if let Some(&edge) = edges.iter().find(|[a, b]| plane.at(*a) == plane.at(*b)) {
+            return Err(PlcError::VertexOnEdge {
+                facet: facet(),
+                vertex: VertexName::new(self.plc, edge[0]),
+                edge: EdgeName::new(self.plc, edge),
+            });
+        }
+        match crossing::find(plane, edges, floating) {
+            None => Ok(()),
+            Some(Conflict::Cross(edges)) => Err(PlcError::EdgesCross {
+                facet: facet(),
+                edges: edges.map(|e| EdgeName::new(self.plc, e)),
+            }),
+            Some(Conflict::OnEdge(vertex, edge)) => Err(PlcError::VertexOnEdge {
+                facet: facet(),
+                vertex: VertexName::new(self.plc, vertex),
+                edge: EdgeName::new(self.plc, edge),
+            }),
+        }
+    }
+
+    fn finish(
+        &self,
+        mut edges: Vec<[VertexId; 2]>,
+        vertices: Vec<VertexId>,
+        frame: [VertexId; 3],
+        flat: bool,
+    ) -> Polygon {
+        edges.sort_unstable();
+        Polygon {
+            edges,
+            vertices,
+            frame,
+            flat,
+            facets: vec![self.index],
+            marker: self.plc.facets[self.index].marker,
+        }
+    }
+
+    fn name(&self) -> FacetName {
+        FacetName::new(self.plc, self.index)
+    }
+}
+
+/// The frame turned so that its orientation in the projection, now `sign`, becomes `wanted`.
+fn oriented([a, b, c]: [VertexId; 3], sign: Sign, wanted: Sign) -> [VertexId; 3] {
+    if sign == wanted { [a, b, c] } else { [a, c, b] }
+}
+
+/// The ends in increasing order.
+pub(super) fn undirected([a, b]: [VertexId; 2]) -> [VertexId; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Sorted, without repetitions.
+pub(super) fn sorted(mut vertices: Vec<VertexId>) -> Vec<VertexId> {
+    vertices.sort_unstable();
+    vertices.dedup();
+    vertices
+}

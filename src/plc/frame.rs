@@ -1,0 +1,204 @@
+//! The frame of a polygon: three of its vertices whose triangle is large (paper §3.2), so that the plane they span is
+//! close to all others, and the test of how close.
+//!
+//! Floats choose the frame, exact arithmetic confirms it. Linear in the number of vertices.
+
+use super::plane::{collinear, orient3d};
+use crate::mesh::VertexId;
+use crate::number::{Dyadic, Number, Vec3};
+use crate::predicate::formula;
+
+/// How far vertices may be from the plane of the frame, relative to the diagonal of the polygon's bounding box.
+pub(super) const FLATNESS: f64 = 1e-9;
+
+/// How the vertices of a polygon lie to the plane of its frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Flatness {
+    /// All on it.
+    Flat,
+    /// All within [`FLATNESS`].
+    NearlyFlat,
+    /// This one, the worst, is at this distance.
+    NotPlanar(VertexId, f64),
+}
+
+/// Three non-collinear vertices that span a large triangle: a and b far from each other, c far from the line ab.
+/// `None` if all vertices are collinear. The result does not depend on anything but the order of `vertices`.
+pub(super) fn choose(points: &[[f64; 3]], vertices: &[VertexId]) -> Option<[VertexId; 3]> {
+    let &start = vertices.first()?;
+    let unit = Unit::of(points, vertices);
+    let at = |v: VertexId| unit.point(points[v.index()]);
+    let a = farthest(vertices, |v| length2(minus(at(v), at(start))));
+    let b = farthest(vertices, |v| length2(minus(at(v), at(a))));
+    let line = minus(at(b), at(a));
+    let c = farthest(vertices, |v| length2(cross(line, minus(at(v), at(a)))));
+    let is_frame = |frame: [VertexId; 3]| !collinear(frame.map(|v| points[v.index()]));
+    if is_frame([a, b, c]) {
+        return Some([a, b, c]);
+    }
+    // The area is lost in rounding. If any three vertices are not collinear, then neither are two fixed different ones
+    // and some third.
+    let &b = vertices
+        .iter()
+        .find(|v| points[v.index()] != points[start.index()])?;
+    let c = vertices.iter().find(|&&c| is_frame([start, b, c]))?;
+    Some([start, b, *c])
+}
+
+/// How the vertices lie to the plane of the frame: signs are exact, the distance is rounded at its end only.
+pub(super) fn flatness(
+    points: &[[f64; 3]],
+    frame: [VertexId; 3],
+    vertices: &[VertexId],
+) -> Flatness {
+    let [a, b, c] = frame.map(|v| points[v.index()]);
+    let off_plane = |v: &&VertexId| !orient3d([a, b, c, points[v.index()]]).is_zero();
+    let outside: Vec<VertexId> = vertices.iter().filter(off_plane).copied().collect();
+    if outside.is_empty() {
+        return Flatness::Flat;
+    }
+    // Distances are taken after scaling by a power of two, so that they neither overflow nor underflow.
+    let unit = Unit::of(points, vertices);
+    let exponent = exponent_of(unit.size);
+    let scaled = |p: [f64; 3]| Vec3(p.map(|x| Dyadic::from_f64(x).shifted(-exponent)));
+    let [a, b, c] = [a, b, c].map(scaled);
+    let normal = b.sub(&a).cross(&c.sub(&a));
+    let normal_length = normal.dot(&normal).to_f64().sqrt();
+    let distance = |v: VertexId| {
+        let d = scaled(points[v.index()]);
+        formula::orient3d([&a, &b, &c, &d]).to_f64().abs() / normal_length
+    };
+    let worst = farthest(&outside, distance);
+    let found = distance(worst);
+    let diagonal =
+        length2(unit.extent).sqrt() * Dyadic::from_f64(unit.size).shifted(1 - exponent).to_f64();
+    if found <= FLATNESS * diagonal {
+        Flatness::NearlyFlat
+    } else {
+        let distance = Dyadic::from_f64(found.min(f64::MAX))
+            .shifted(exponent)
+            .to_f64();
+        Flatness::NotPlanar(worst, distance)
+    }
+}
+
+/// A scaling of the vertices' bounding box into the unit cube, for the choices that floats make.
+struct Unit {
+    low: [f64; 3],
+    /// Half the largest side of the bounding box.
+    size: f64,
+    /// The sides of the bounding box after scaling.
+    extent: [f64; 3],
+}
+
+impl Unit {
+    fn of(points: &[[f64; 3]], vertices: &[VertexId]) -> Unit {
+        let bound = |start: f64, pick: fn(f64, f64) -> f64| -> [f64; 3] {
+            [0, 1, 2].map(|k| {
+                let coordinates = vertices.iter().map(|v| points[v.index()][k]);
+                coordinates.fold(start, pick)
+            })
+        };
+        let low = bound(f64::INFINITY, f64::min);
+        let high = bound(f64::NEG_INFINITY, f64::max);
+        let half = half_minus(high, low);
+        let size = half.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        Unit {
+            low,
+            size,
+            extent: half.map(|x| x / size),
+        }
+    }
+
+    fn point(&self, p: [f64; 3]) -> [f64; 3] {
+        half_minus(p, self.low).map(|x| x / self.size)
+    }
+}
+
+/// (p − q)/2, which does not overflow.
+fn half_minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| 0.5 * p[k] - 0.5 * q[k])
+}
+
+/// The exponent of a positive normal double.
+fn exponent_of(x: f64) -> i64 {
+    ((x.to_bits() >> 52) & 0x7ff) as i64 - 1023
+}
+
+/// The first of the vertices with the largest measure.
+fn farthest(vertices: &[VertexId], measure: impl Fn(VertexId) -> f64) -> VertexId {
+    let mut best = (vertices[0], f64::NEG_INFINITY);
+    for &v in vertices {
+        let found = measure(v);
+        if found > best.1 {
+            best = (v, found);
+        }
+    }
+    best.0
+}
+
+fn minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| p[k] - q[k])
+}
+
+fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
+fn length2([x, y, z]: [f64; 3]) -> f64 {
+    x * x + y * y + z * z
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(n: usize) -> Vec<VertexId> {
+        (0..n).map(VertexId::new).collect()
+    }
+
+    /// A square with a fourth vertex lifted by `height`, all scaled.
+    fn square(height: f64, scale: f64) -> [[f64; 3]; 4] {
+        let square = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, height],
+            [0.0, 1.0, 0.0],
+        ];
+        square.map(|p| p.map(|x| x * scale))
+    }
+
+    #[test]
+    fn flatness_at_every_scale() {
+        for scale in [1.0, 1e300, 1e-300, 1.7e308] {
+            let measure = |height| {
+                let points = square(height, scale);
+                let frame = choose(&points, &all(4)).unwrap();
+                flatness(&points, frame, &all(4))
+            };
+            assert_eq!(measure(0.0), Flatness::Flat);
+            assert_eq!(measure(1e-10), Flatness::NearlyFlat);
+            match measure(1e-8) {
+                Flatness::NotPlanar(_, d) => {
+                    assert!((1e-9..1.001e-8).contains(&(d / scale)), "{d:e} {scale:e}");
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn area_below_rounding_is_found() {
+        let tiny = f64::from_bits(1);
+        let points = [
+            [0.0; 3],
+            [1.0, 1.0, 0.0],
+            [0.5, 0.5, 0.0],
+            [0.25, 0.25, tiny],
+        ];
+        assert_eq!(choose(&points[..3], &all(3)), None);
+        let frame = choose(&points, &all(4)).unwrap();
+        assert!(frame.contains(&VertexId(3)));
+        assert_eq!(choose(&points, &[]), None);
+    }
+}

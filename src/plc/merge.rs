@@ -1,0 +1,209 @@
+//! Adjacent coplanar facets become one polygon, so that nobody has to recover edges that are there only because a file
+//! format knows nothing but triangles.
+//!
+//! Two facets are joined across an edge if it is an edge of these two alone, once in each, was not given explicitly, both
+//! facets have the same marker, and all their vertices lie exactly on one plane. (Nearly flat facets are never joined.)
+//! Two such facets on the same side of their edge overlap, whatever their markers: an error. Joining is transitive (union-find), and
+//! because every join is on one exact plane, so is the whole group. Edges dropped are those across which two facets were
+//! joined, and no others: an explicit segment inside the merged polygon stays in both directions.
+//!
+//! O(k log k) for k edges, one orientation test for each edge between triangles.
+
+use super::facet::{sorted, undirected};
+use super::frame;
+use super::plane::{Projected, Projection, orient3d};
+use super::{EdgeName, FacetName, Plc, PlcError, Polygon};
+use crate::mesh::VertexId;
+use rustc_hash::FxHashSet;
+
+/// A directed edge of a polygon.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Side {
+    edge: [VertexId; 2],
+    polygon: usize,
+    directed: [VertexId; 2],
+}
+
+/// Polygons after merging.
+pub(super) struct Merged {
+    /// The polygons, in order of their lowest facets.
+    pub polygons: Vec<Polygon>,
+    /// The edges that are edges no more, with increasing ends.
+    pub dropped: FxHashSet<[VertexId; 2]>,
+}
+
+/// Merges what can be merged. `explicit` holds the edges that must stay, with increasing ends.
+pub(super) fn merge(
+    plc: &Plc,
+    polygons: Vec<Polygon>,
+    explicit: &FxHashSet<[VertexId; 2]>,
+) -> Result<Merged, PlcError> {
+    let mut groups = Groups::new(polygons.len());
+    let mut dropped = FxHashSet::default();
+    for sides in sides(&polygons).chunk_by(|s, t| s.edge == t.edge) {
+        let &[s, t] = sides else { continue };
+        let [f, g] = [&polygons[s.polygon], &polygons[t.polygon]];
+        if s.polygon == t.polygon || !coplanar(plc, f, g) {
+            continue;
+        }
+        let flipped = is_flipped(plc, f, g);
+        if (s.directed == t.directed) != flipped {
+            return Err(overlap(plc, f, g, s.edge));
+        }
+        if f.marker != g.marker || explicit.contains(&s.edge) {
+            continue;
+        }
+        groups.join(s.polygon, t.polygon, flipped);
+        dropped.insert(s.edge);
+    }
+
+    let mut members = vec![Vec::new(); polygons.len()];
+    for i in 0..polygons.len() {
+        members[groups.find(i).0].push(i);
+    }
+    // The root of a group is its lowest polygon, so this is the order of lowest facets.
+    let mut merged = Vec::new();
+    for group in members.into_iter().filter(|group| !group.is_empty()) {
+        merged.push(match group[..] {
+            [single] => polygons[single].clone(),
+            _ => join(plc, &polygons, &group, &mut groups, &dropped)?,
+        });
+    }
+    Ok(Merged {
+        polygons: merged,
+        dropped,
+    })
+}
+
+/// All edges of all polygons, sorted so that those with the same ends are together.
+fn sides(polygons: &[Polygon]) -> Vec<Side> {
+    let of = |(polygon, f): (usize, &'_ Polygon)| {
+        let side = move |&directed: &[VertexId; 2]| Side {
+            edge: undirected(directed),
+            polygon,
+            directed,
+        };
+        f.edges.iter().map(side).collect::<Vec<_>>()
+    };
+    let mut sides: Vec<Side> = polygons.iter().enumerate().flat_map(of).collect();
+    sides.sort_unstable();
+    sides
+}
+
+/// Whether all vertices of f and g are exactly on one plane.
+fn coplanar(plc: &Plc, f: &Polygon, g: &Polygon) -> bool {
+    let [a, b, c] = points(plc, f.frame);
+    let on_plane = |v: VertexId| {
+        f.frame.contains(&v) || orient3d([a, b, c, plc.vertices[v.index()]]).is_zero()
+    };
+    f.flat && g.flat && g.frame.iter().all(|&v| on_plane(v))
+}
+
+/// Whether the frames of two coplanar polygons turn in opposite directions.
+fn is_flipped(plc: &Plc, f: &Polygon, g: &Polygon) -> bool {
+    let (projection, sign) =
+        Projection::of(points(plc, f.frame)).expect("a frame is not collinear");
+    let plane = Projected {
+        points: &plc.vertices,
+        projection,
+    };
+    plane.orient(g.frame) != sign
+}
+
+/// The polygon of a group, oriented as its lowest member.
+fn join(
+    plc: &Plc,
+    polygons: &[Polygon],
+    group: &[usize],
+    groups: &mut Groups,
+    dropped: &FxHashSet<[VertexId; 2]>,
+) -> Result<Polygon, PlcError> {
+    let mut sides = Vec::new();
+    for &polygon in group {
+        let (_, flipped) = groups.find(polygon);
+        for &[a, b] in &polygons[polygon].edges {
+            let directed = if flipped { [b, a] } else { [a, b] };
+            if !dropped.contains(&undirected(directed)) {
+                sides.push((directed, polygon));
+            }
+        }
+    }
+    sides.sort_unstable();
+    if let Some(pair) = sides.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        let [f, g] = [&polygons[pair[0].1], &polygons[pair[1].1]];
+        return Err(overlap(plc, f, g, pair[0].0));
+    }
+    let first = &polygons[group[0]];
+    let vertices = sorted(
+        group
+            .iter()
+            .flat_map(|&i| polygons[i].vertices.iter().copied())
+            .collect(),
+    );
+    let [a, b, c] = frame::choose(&plc.vertices, &vertices).expect("a polygon is not collinear");
+    let mut joined = Polygon {
+        edges: sides.into_iter().map(|(edge, _)| edge).collect(),
+        vertices,
+        frame: [a, b, c],
+        flat: true,
+        facets: group
+            .iter()
+            .flat_map(|&i| polygons[i].facets.iter().copied())
+            .collect(),
+        marker: first.marker,
+    };
+    if is_flipped(plc, first, &joined) {
+        joined.frame = [a, c, b];
+    }
+    Ok(joined)
+}
+
+fn points(plc: &Plc, frame: [VertexId; 3]) -> [[f64; 3]; 3] {
+    frame.map(|v| plc.vertices[v.index()])
+}
+
+fn overlap(plc: &Plc, f: &Polygon, g: &Polygon, edge: [VertexId; 2]) -> PlcError {
+    PlcError::FacetsOverlap {
+        first: FacetName::new(plc, f.facets[0]),
+        second: FacetName::new(plc, g.facets[0]),
+        edge: EdgeName::new(plc, edge),
+    }
+}
+
+/// Union-find, where every element knows whether it is flipped with respect to the root of its group.
+struct Groups {
+    parent: Vec<(usize, bool)>,
+}
+
+impl Groups {
+    fn new(n: usize) -> Groups {
+        Groups {
+            parent: (0..n).map(|i| (i, false)).collect(),
+        }
+    }
+
+    /// The lowest element of the group of i, and whether i is flipped with respect to it.
+    fn find(&mut self, i: usize) -> (usize, bool) {
+        let (mut root, mut flipped) = (i, false);
+        while self.parent[root].0 != root {
+            flipped ^= self.parent[root].1;
+            root = self.parent[root].0;
+        }
+        let (mut at, mut rest) = (i, flipped);
+        while self.parent[at].0 != at {
+            let (next, step) = self.parent[at];
+            self.parent[at] = (root, rest);
+            rest ^= step;
+            at = next;
+        }
+        (root, flipped)
+    }
+
+    fn join(&mut self, i: usize, j: usize, flipped: bool) {
+        let ((a, i_flipped), (b, j_flipped)) = (self.find(i), self.find(j));
+        let between = flipped ^ i_flipped ^ j_flipped;
+        if a != b {
+            self.parent[a.max(b)] = (a.min(b), between);
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Exact signs in the plane of a facet: a coordinate axis is dropped along which the plane does not stand upright, so that
+//! the projected coordinates are input doubles and no rounding happens at all.
+
+use crate::mesh::VertexId;
+use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
+use crate::predicate::formula;
+
+/// A point of the projection plane.
+pub(super) type Point = [f64; 2];
+
+/// The projection along a coordinate axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Projection {
+    axis: usize,
+}
+
+impl Projection {
+    /// The projection along the largest component of the normal of a triangle, with the sign of that component;
+    /// `None` if the three points are collinear.
+    ///
+    /// Component k of (b−a) × (c−a) is the determinant of the triangle projected along axis k onto the axes
+    /// (k+1, k+2) mod 3, which is what [`Projection::point`] keeps.
+    pub fn of(triangle: [[f64; 3]; 3]) -> Option<(Projection, Sign)> {
+        let [a, b, c] = triangle.map(Vec3::<Dyadic>::from_f64);
+        let normal = b.sub(&a).cross(&c.sub(&a)).0;
+        let size = |k: usize| match normal[k].exact_sign() {
+            Sign::Negative => normal[k].clone().negated(),
+            _ => normal[k].clone(),
+        };
+        let mut axis = 0;
+        for k in [1, 2] {
+            if (size(k) - &size(axis)).exact_sign().is_positive() {
+                axis = k;
+            }
+        }
+        let sign = normal[axis].exact_sign();
+        (!sign.is_zero()).then_some((Projection { axis }, sign))
+    }
+
+    /// The two coordinates that are kept.
+    pub fn point(self, p: [f64; 3]) -> Point {
+        [p[(self.axis + 1) % 3], p[(self.axis + 2) % 3]]
+    }
+}
+
+/// The vertices in a projection.
+#[derive(Clone, Copy)]
+pub(super) struct Projected<'a> {
+    /// The coordinates in space.
+    pub points: &'a [[f64; 3]],
+    /// The projection.
+    pub projection: Projection,
+}
+
+impl Projected<'_> {
+    /// Where v is.
+    pub fn at(&self, v: VertexId) -> Point {
+        self.projection.point(self.points[v.index()])
+    }
+
+    /// The orientation of abc.
+    pub fn orient(&self, [a, b, c]: [VertexId; 3]) -> Sign {
+        orient2d(self.at(a), self.at(b), self.at(c))
+    }
+}
+
+/// Whether three points of space are collinear.
+pub(super) fn collinear(points: [[f64; 3]; 3]) -> bool {
+    [0, 1, 2].iter().all(|&axis| {
+        let [a, b, c] = points.map(|p| Projection { axis }.point(p));
+        orient2d(a, b, c).is_zero()
+    })
+}
+
+/// The sign of det[b−a, c−a]: positive iff abc turns counterclockwise.
+pub(super) fn orient2d(a: Point, b: Point, c: Point) -> Sign {
+    fn value<N: Number>(points: [Point; 3]) -> N {
+        let [a, b, c] = points.map(|p| p.map(N::from_f64));
+        let minus = |p: &[N; 2], k: usize| p[k].clone() - &a[k];
+        minus(&b, 0) * &minus(&c, 1) - &(minus(&b, 1) * &minus(&c, 0))
+    }
+    filtered(value::<Approx>([a, b, c]), || value([a, b, c]))
+}
+
+/// The sign of det[b−a, c−a, d−a].
+pub(super) fn orient3d(points: [[f64; 3]; 4]) -> Sign {
+    // The commonest coplanar points, without arithmetic: all in one plane across a coordinate axis.
+    if (0..3).any(|k| points.iter().all(|p| p[k] == points[0][k])) {
+        return Sign::Zero;
+    }
+    let approx = points.map(Vec3::<Approx>::from_f64);
+    filtered(formula::orient3d(approx.each_ref()), || {
+        formula::orient3d(points.map(Vec3::<Dyadic>::from_f64).each_ref())
+    })
+}
+
+/// The sign of the area enclosed by a closed walk: Σ det[p_i − p_0, p_{i+1} − p_0].
+pub(super) fn area_sign(walk: &[Point]) -> Sign {
+    fn value<N: Number>(walk: &[Point]) -> N {
+        let number = |p: &Point| p.map(N::from_f64);
+        let origin = number(&walk[0]);
+        let relative = |p: &Point| {
+            let [u, v] = number(p);
+            [u - &origin[0], v - &origin[1]]
+        };
+        let mut sum = N::from_f64(0.0);
+        for pair in walk.windows(2) {
+            let ([pu, pv], [qu, qv]) = (relative(&pair[0]), relative(&pair[1]));
+            sum = sum + &(pu * &qv - &(pv * &qu));
+        }
+        sum
+    }
+    if walk.is_empty() {
+        return Sign::Zero;
+    }
+    filtered(value::<Approx>(walk), || value(walk))
+}
+
+/// Whether p is on the closed segment ab.
+pub(super) fn on_segment(p: Point, a: Point, b: Point) -> bool {
+    in_box(p, a, b) && orient2d(a, b, p).is_zero()
+}
+
+/// Whether p is in the bounding box of a and b.
+pub(super) fn in_box(p: Point, a: Point, b: Point) -> bool {
+    (0..2).all(|k| a[k].min(b[k]) <= p[k] && p[k] <= a[k].max(b[k]))
+}
+
+fn filtered(approx: Approx, exact: impl FnOnce() -> Dyadic) -> Sign {
+    approx.sign().unwrap_or_else(|| exact().exact_sign())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn projection_keeps_the_orientation() {
+        let corner = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        for turn in 0..3 {
+            let triangle = corner.map(|[x, y, z]| {
+                let mut p = [x, y, z];
+                p.rotate_left(turn);
+                p
+            });
+            let (projection, sign) = Projection::of(triangle).unwrap();
+            let [a, b, c] = triangle.map(|p| projection.point(p));
+            assert_eq!(sign, Sign::Positive);
+            assert_eq!(orient2d(a, b, c), sign);
+            assert_eq!(area_sign(&[a, c, b]), Sign::Negative);
+        }
+        assert!(Projection::of([[0.0; 3], [1.0; 3], [3.0; 3]]).is_none());
+    }
+
+    #[test]
+    fn extreme_coordinates_do_not_lie() {
+        let tiny = f64::from_bits(1);
+        let collinear = [[1e308, -1e308, 0.0], [-1e308, 1e308, 0.0], [0.0; 3]];
+        assert!(super::collinear(collinear));
+        let mut other = collinear;
+        other[2][0] = tiny;
+        assert!(!super::collinear(other));
+        assert_eq!(
+            orient2d([0.0, 0.0], [tiny, 0.0], [0.0, tiny]),
+            Sign::Positive
+        );
+        let [a, b, c] = other;
+        assert_eq!(orient3d([a, b, c, [0.0, 0.0, tiny]]), Sign::Negative);
+    }
+}
