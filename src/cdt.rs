@@ -113,6 +113,7 @@ impl<P: PointStore> Cdt<P> {
                 subpolygons: &mut self.subpolygons,
                 insertion,
                 counts: PolygonCounts::default(),
+                candidates: Vec::new(),
             };
             let result = polygons.insert_all(progress);
             report.insertion_counts = polygons.counts;

@@ -82,6 +82,11 @@ impl Failure {
                     "gave up: segment {} cannot be divided any further; facets probably intersect near it",
                     edge(segment)
                 ),
+                GaveUp::SegmentsTooClose { segments: [a, b] } => format!(
+                    "gave up: segments {} and {} come too close for rounded Steiner points",
+                    edge(a),
+                    edge(b)
+                ),
                 GaveUp::NotFlat { facets: f, reason } => {
                     format!("gave up: polygon not exactly flat, {reason}: {}", facets(f))
                 }
@@ -166,6 +171,12 @@ pub enum GaveUp {
     SegmentTooShort {
         /// The ends of the segment.
         segment: [VertexId; 2],
+    },
+    /// Two segments do not intersect, but come so close that a Steiner point on the one, rounded, lies on the other.
+    #[error("segments {}–{} and {}–{} come too close for rounded Steiner points", segments[0][0], segments[0][1], segments[1][0], segments[1][1])]
+    SegmentsTooClose {
+        /// The ends of both.
+        segments: [[VertexId; 2]; 2],
     },
     /// A polygon that is flat only to rounding has no CDT that the algorithm can find without further Steiner points.
     #[error("the polygon made of facets {facets:?} is not exactly flat: {reason}")]

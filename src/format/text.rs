@@ -166,7 +166,7 @@ impl<'a> Text<'a> {
     /// An error at the current line.
     pub fn error(&self, reason: Reason) -> FormatError {
         FormatError::Malformed {
-            place: Place::Line(self.number),
+            place: Place::Line(self.number.max(1)),
             reason,
         }
     }

@@ -5,7 +5,7 @@ use crate::mesh::VertexId;
 
 /// A checked PLC. Every vertex id in it is a representative: duplicates have been replaced by the first vertex with the
 /// same coordinates.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Complex {
     /// `representative[v]` is the first vertex with the coordinates of v; v itself unless v is a duplicate.
     pub representative: Vec<VertexId>,

@@ -154,7 +154,7 @@ mod tests {
         );
         assert_eq!(
             found(&points, &[edge(0, 1), edge(4, 5)], &[]),
-            on(4, edge(0, 1))
+            on(1, edge(4, 5))
         );
         // In a row, at an angle, and apart on one line.
         assert_eq!(

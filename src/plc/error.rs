@@ -172,7 +172,7 @@ pub enum PlcError {
         edge: EdgeName,
     },
     /// The vertices are not on one plane, nor nearly.
-    #[error("{facet} is not planar: vertex {vertex} is {distance:e} from the plane of others")]
+    #[error("{facet} is not planar: vertex {vertex} is {distance:.3e} from the plane of others")]
     NotPlanar {
         /// The facet.
         facet: FacetName,

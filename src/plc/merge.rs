@@ -3,7 +3,7 @@
 //!
 //! Two facets are joined across an edge if it is an edge of these two alone, once in each, was not given explicitly, both
 //! facets have the same marker, and all their vertices lie exactly on one plane. (Nearly flat facets are never joined.)
-//! If the two then lie on the same side of the edge, they overlap: an error. Joining is transitive (union-find), and
+//! Two such facets on the same side of their edge overlap, whatever their markers: an error. Joining is transitive (union-find), and
 //! because every join is on one exact plane, so is the whole group. Edges dropped are those across which two facets were
 //! joined, and no others: an explicit segment inside the merged polygon stays in both directions.
 //!
@@ -43,16 +43,15 @@ pub(super) fn merge(
     for sides in sides(&polygons).chunk_by(|s, t| s.edge == t.edge) {
         let &[s, t] = sides else { continue };
         let [f, g] = [&polygons[s.polygon], &polygons[t.polygon]];
-        if s.polygon == t.polygon
-            || f.marker != g.marker
-            || explicit.contains(&s.edge)
-            || !coplanar(plc, f, g)
-        {
+        if s.polygon == t.polygon || !coplanar(plc, f, g) {
             continue;
         }
         let flipped = is_flipped(plc, f, g);
         if (s.directed == t.directed) != flipped {
             return Err(overlap(plc, f, g, s.edge));
+        }
+        if f.marker != g.marker || explicit.contains(&s.edge) {
+            continue;
         }
         groups.join(s.polygon, t.polygon, flipped);
         dropped.insert(s.edge);

@@ -165,6 +165,6 @@ mod tests {
             Sign::Positive
         );
         let [a, b, c] = other;
-        assert_eq!(orient3d([a, b, c, [0.0, 0.0, tiny]]), Sign::Positive);
+        assert_eq!(orient3d([a, b, c, [0.0, 0.0, tiny]]), Sign::Negative);
     }
 }

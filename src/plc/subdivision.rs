@@ -239,6 +239,7 @@ fn winds_about(walk: &[Point], at: Point) -> bool {
 mod tests {
     use super::super::plane::Projection;
     use super::*;
+    use proptest::prelude::*;
 
     /// The area in the plane z = 0, with edges as letters of points: "ab" is the edge from a to b.
     fn area_of(
@@ -339,5 +340,94 @@ mod tests {
         assert_eq!(found.edges, named("ab ae bc cd da ea gh hg"));
         let tree = area_of(&points.concat(), "ae cf", &[], &[]).unwrap();
         assert!(tree.edges.is_empty());
+    }
+
+    /// Side of the grid of the test below, in cells.
+    const N: usize = 4;
+
+    /// The vertex at column i, row j.
+    fn lattice(i: usize, j: usize) -> VertexId {
+        VertexId::new(j * (N + 1) + i)
+    }
+
+    /// The counterclockwise triangles of a grid whose cells are split along one diagonal or the other.
+    fn triangles(diagonals: &[bool]) -> Vec<[VertexId; 3]> {
+        let cells = (0..N).flat_map(|j| (0..N).map(move |i| (i, j)));
+        let split = |((i, j), &diagonal): ((usize, usize), &bool)| {
+            let [a, b, c, d] = [
+                lattice(i, j),
+                lattice(i + 1, j),
+                lattice(i + 1, j + 1),
+                lattice(i, j + 1),
+            ];
+            if diagonal {
+                [[a, b, c], [c, d, a]]
+            } else {
+                [[a, b, d], [b, c, d]]
+            }
+        };
+        cells.zip(diagonals).flat_map(split).collect()
+    }
+
+    proptest! {
+        /// Some edges of a triangulated grid and some hole points: the faces are those that flooding finds.
+        #[test]
+        fn faces_agree_with_flooding(
+            diagonals in prop::collection::vec(any::<bool>(), N * N),
+            chosen in prop::collection::vec(0u32..100, 100),
+            density in 20u32..90,
+            holes in prop::collection::vec(0usize..2 * N * N, 0..3),
+        ) {
+            let triangles = triangles(&diagonals);
+            let sides = |t: usize| (0..3).map(move |k| (k, t));
+            let edge = |(k, t): (usize, usize)| [triangles[t][k], triangles[t][(k + 1) % 3]];
+            let undirected = |[a, b]: [VertexId; 2]| [a.min(b), a.max(b)];
+            let mut all: Vec<_> = (0..triangles.len()).flat_map(sides).map(edge).map(undirected).collect();
+            all.sort_unstable();
+            all.dedup();
+            let picked = all.iter().zip(&chosen).filter(|(_, c)| **c < density);
+            let edges: Vec<_> = picked.map(|(e, _)| *e).collect();
+            let triangle_at = |[a, b]: [VertexId; 2]| (0..triangles.len()).flat_map(sides).find(|&s| edge(s) == [a, b]);
+
+            // Flood from outside and from the holes, over edges that were not chosen.
+            let mut open = vec![false; triangles.len()];
+            let boundary = all.iter().filter(|e| !edges.contains(e)).filter_map(|&[a, b]| {
+                match (triangle_at([a, b]), triangle_at([b, a])) {
+                    (Some((_, t)), None) | (None, Some((_, t))) => Some(t),
+                    _ => None,
+                }
+            });
+            let mut stack: Vec<usize> = boundary.chain(holes.iter().copied()).collect();
+            while let Some(t) = stack.pop() {
+                if std::mem::replace(&mut open[t], true) {
+                    continue;
+                }
+                for [a, b] in sides(t).map(edge) {
+                    if !edges.contains(&undirected([a, b])) {
+                        stack.extend(triangle_at([b, a]).map(|(_, t)| t));
+                    }
+                }
+            }
+            let directed = edges.iter().flat_map(|&[a, b]| [[a, b], [b, a]]);
+            let mut expected: Vec<_> = directed.filter(|&e| triangle_at(e).is_some_and(|(_, t)| !open[t])).collect();
+            expected.sort_unstable();
+
+            let points: Vec<_> = (0..(N + 1) * (N + 1)).map(|v| [(v % (N + 1)) as f64, (v / (N + 1)) as f64]).collect();
+            let inside = |t: &usize| [0, 1].map(|k| triangles[*t].map(|v| points[v.index()][k]).iter().sum::<f64>() / 3.0);
+            let hole_points: Vec<_> = holes.iter().map(inside).collect();
+            let space: Vec<_> = points.iter().map(|&[u, v]| [u, v, 0.0]).collect();
+            let corner = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+            let projection = Projection::of(corner).unwrap().0;
+            let plane = Projected { points: &space, projection };
+            let floating: Vec<_> = (0..points.len()).map(VertexId::new).filter(|v| !edges.concat().contains(v)).collect();
+            let found = area(&plane, &edges, &floating, &hole_points).unwrap();
+            prop_assert_eq!(found.edges, expected);
+            // All triangles about a floating vertex are in one face.
+            for v in floating {
+                let about = triangles.iter().position(|t| t.contains(&v)).unwrap();
+                let on_hull = points[v.index()].iter().any(|&x| x == 0.0 || x == N as f64);
+                prop_assert_eq!(found.floating.contains(&v), !on_hull && !open[about]);
+            }
+        }
     }
 }

@@ -68,14 +68,15 @@ pub fn search<P: PointStore>(
 }
 
 enum Inward {
-    /// The face abv of f, by the corner of the tetrahedron on its left.
+    /// The face abv of f, by the corner of the tetrahedron on its left side.
     Face(Corner, VertexId),
     /// A tetrahedron that f cuts.
     Crossing(TetId),
 }
 
-/// What lies to the left of a→b on f. Going around ab in positive sense, the tetrahedra's other vertices pass from right
-/// to left there (and from left to right on the far side of ab).
+/// What lies to the left of a→b on f. Going around ab in positive sense, the other vertices of the tetrahedra pass from
+/// right to left there, and from left to right on the far side of ab; in between there may be vertices on f, one if f is
+/// flat, several if shim tetrahedra lie between.
 fn inward<P: PointStore>(
     mesh: &TetMesh,
     sides: &Sides<P>,
@@ -84,37 +85,43 @@ fn inward<P: PointStore>(
     b: VertexId,
     is_subpolygon: &dyn Fn(Face) -> bool,
 ) -> Result<Inward, Obstacle> {
-    let mut stray = None;
-    let mut crossing = None;
-    // Faces abv with v on f: below a left vertex; above a right vertex; between shims.
-    let (mut under_left, mut over_right) = (None, None);
-    for t in mesh.around(start, a, b) {
-        // t = abxy, positive; x comes before y around ab.
-        let x = mesh.vertex(mesh.exit_around(t, a, b));
-        let y = third(mesh.vertices(t), [a, b, x]);
-        let (side_x, side_y) = (sides.of(x), sides.of(y));
-        if side_x == Side::On && is_subpolygon(face([a, b, x])) && side_y != Side::Right {
-            return Ok(Inward::Face(mesh.corner_of(t, y), x));
-        }
-        match (side_x, side_y) {
-            (Side::Right, Side::Left) => crossing = Some(t),
-            (Side::On, Side::Left) => under_left = Some((mesh.corner_of(t, y), x)),
-            (Side::Right, Side::On) => over_right = Some((mesh.twin(mesh.corner_of(t, x)), y)),
-            (Side::Stray, Side::Left) => stray = Some(x),
-            (Side::Right, Side::Stray) => stray = Some(y),
-            _ => {}
-        }
+    // The tetrahedra abxy around ab, in order, each with its x and the side of x.
+    let link: Vec<(TetId, VertexId, Side)> = mesh
+        .around(start, a, b)
+        .map(|t| {
+            let x = mesh.vertex(mesh.exit_around(t, a, b));
+            (t, x, sides.of(x))
+        })
+        .collect();
+    let n = link.len();
+    let side = |i: usize| link[i % n].2;
+    if let Some(i) = (0..n).find(|&i| side(i) == Side::Right && side(i + 1) == Side::Left) {
+        return Ok(Inward::Crossing(link[i].0));
     }
-    match (crossing, under_left.or(over_right), stray) {
-        (Some(t), _, _) => Ok(Inward::Crossing(t)),
-        (None, Some((c, v)), _) => Ok(Inward::Face(c, v)),
-        (None, None, Some(v)) => Err(Obstacle::Stray(v)),
-        (None, None, None) => Err(Obstacle::Nothing([a, b])),
+    // Runs of vertices on h, as ranges of `link`. A flat f follows a right vertex and precedes a left one, and on the far
+    // side it is the other way round. A vertex that is on the wrong side because f is not flat spoils one of the two.
+    let on = |i: usize| matches!(side(i), Side::On | Side::Stray);
+    let rank = |side, near: Side, far: Side| i32::from(side == near) - i32::from(side == far);
+    let runs = (0..n).filter(|&i| on(i) && !on(i + n - 1)).map(|first| {
+        let last = (first..first + n)
+            .find(|&i| !on(i + 1))
+            .expect("ab has vertices off the plane");
+        let before = rank(side(first + n - 1), Side::Right, Side::Left);
+        let after = rank(side(last + 1), Side::Left, Side::Right);
+        (before + after, first, last)
+    });
+    let best = runs.filter(|run| run.0 >= 0).max_by_key(|run| run.0);
+    let (_, first, last) = best.ok_or(Obstacle::Nothing([a, b]))?;
+    if let Some(i) = (first..=last).find(|&i| side(i) == Side::Stray) {
+        return Err(Obstacle::Stray(link[i % n].1));
     }
-}
-
-fn third(t: [VertexId; 4], [a, b, x]: [VertexId; 3]) -> VertexId {
-    t.into_iter()
-        .find(|&v| v != a && v != b && v != x)
-        .expect("a tetrahedron has four vertices")
+    let chosen = (first..=last).find(|&i| is_subpolygon(face([a, b, link[i % n].1])));
+    let chosen = chosen.unwrap_or(if side(last + 1) == Side::Left {
+        last
+    } else {
+        first
+    });
+    let (t, v, _) = link[chosen % n];
+    let next = link[(chosen + 1) % n].1;
+    Ok(Inward::Face(mesh.corner_of(t, next), v))
 }

@@ -13,7 +13,7 @@ use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::number::Dyadic;
 use crate::plc::{Complex, Polygon};
 use crate::predicate::PointStore;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -92,6 +92,8 @@ pub struct PolygonInsertion<'a, P> {
     pub insertion: Insertion,
     /// What has been done.
     pub counts: PolygonCounts,
+    /// The triangles noted for the polygon that is being inserted.
+    pub candidates: Vec<Face>,
 }
 
 /// The triangles of a region's part of f, after its insertion.
@@ -148,9 +150,8 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             self.counts.not_flat += u64::from(!flat);
         }
         if !covering.seeds.is_empty() {
-            for c in covering.faces {
-                self.subpolygons.insert(face(self.mesh.facet(c)), f as u32);
-            }
+            let faces: Faces = covering.faces.iter().map(|&c| self.mesh.facet(c)).collect();
+            self.register(f, &faces);
             for &seed in &covering.seeds {
                 // The region of a seed may have been inserted with that of another one.
                 if self.mesh.is_alive(seed) && sides.crosses_tet(self.mesh, seed) {
@@ -162,9 +163,14 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
                 return Err(self.not_flat(f, NotFlatReason::AmbiguousSide));
             }
         }
-        for c in covering.faces {
-            self.subpolygons.insert(face(self.mesh.facet(c)), f as u32);
-        }
+        // The corners are on the left side of f; seen from there, f lies to the left of its boundary edges.
+        let seen_from_left = |[a, b, c]: [VertexId; 3]| [b, a, c];
+        let faces = covering
+            .faces
+            .iter()
+            .map(|&c| seen_from_left(self.mesh.facet(c)));
+        let faces: Faces = faces.collect();
+        self.settle(f, flat, &faces, &boundary)?;
         displaced.sort_unstable();
         displaced.dedup();
         Ok(displaced)
@@ -393,7 +399,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         if proved && !cfg!(debug_assertions) {
             return Ok(());
         }
-        let on_f: rustc_hash::FxHashSet<Face> = faces.iter().map(|&t| face(t)).collect();
+        let on_f: FxHashSet<Face> = faces.iter().map(|&t| face(t)).collect();
         let corners = tets
             .iter()
             .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
@@ -421,15 +427,85 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         }
     }
 
+    /// Notes the triangles with which an insertion covered f.
     fn register(&mut self, f: usize, faces: &Faces) {
+        self.candidates.extend(faces.iter().map(|&t| face(t)));
         self.subpolygons
             .extend(faces.iter().map(|&t| (face(t), f as u32)));
+    }
+
+    /// Makes `faces`, found by the last search, the subpolygons of f. Where f is flat only to rounding, insertions may
+    /// have noted triangles that are not in them, next to f's border; those must be locally Delaunay then, and f's own
+    /// must cover it simply.
+    fn settle(
+        &mut self,
+        f: usize,
+        flat: bool,
+        faces: &[[VertexId; 3]],
+        boundary: &[[VertexId; 2]],
+    ) -> Result<(), Failure> {
+        let mut spurious: FxHashSet<Face> =
+            std::mem::take(&mut self.candidates).into_iter().collect();
+        for &t in faces {
+            spurious.remove(&face(t));
+            self.subpolygons.insert(face(t), f as u32);
+        }
+        let mut spurious: Vec<Face> = spurious.into_iter().collect();
+        spurious.sort_unstable();
+        for t in &spurious {
+            self.subpolygons.remove(t);
+        }
+        let bad = |&t: &Face| !self.is_locally_delaunay(t);
+        if !flat && (!covers_simply(faces, boundary) || spurious.iter().any(bad)) {
+            return Err(self.not_flat(f, NotFlatReason::Incompatible));
+        }
+        Ok(())
+    }
+
+    /// Whether a triangle is gone from the mesh or is locally Delaunay in it.
+    fn is_locally_delaunay(&self, [a, b, c]: Face) -> bool {
+        let Some(t) = self.incidence.tet_at_edge(self.mesh, a, b) else {
+            return true;
+        };
+        let with_triangle = self
+            .mesh
+            .around(t, a, b)
+            .find(|&t| self.mesh.slot_of(t, c).is_some());
+        with_triangle.is_none_or(|t| {
+            let v = self.mesh.vertices(t);
+            let apex = v
+                .iter()
+                .position(|v| ![a, b, c].contains(v))
+                .expect("three of four vertices");
+            let corner = t.corner(apex);
+            let ghost = |t: TetId| self.mesh.is_ghost(t);
+            ghost(t)
+                || ghost(self.mesh.neighbor(corner))
+                || !self
+                    .points
+                    .insphere([v[0], v[1], v[2], v[3], self.mesh.apex_across(corner)])
+                    .is_positive()
+        })
     }
 
     fn not_flat(&self, f: usize, reason: NotFlatReason) -> Failure {
         let facets = self.complex.polygons[f].facets.clone();
         GaveUp::NotFlat { facets, reason }.into()
     }
+}
+
+/// Whether oriented triangles have `boundary` as their boundary, and every other edge once in each direction.
+fn covers_simply(faces: &[[VertexId; 3]], boundary: &[[VertexId; 2]]) -> bool {
+    let mut open: FxHashSet<[VertexId; 2]> = FxHashSet::default();
+    let edges = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let border = boundary.iter().map(|&[a, b]| [b, a]);
+    let mut simple = true;
+    for [a, b] in edges.chain(border) {
+        if !open.remove(&[b, a]) {
+            simple &= open.insert([a, b]);
+        }
+    }
+    simple && open.is_empty()
 }
 
 /// The directed subsegments that bound f.

@@ -17,6 +17,7 @@ use super::split::{self, Reference, Subsegment, split_parameter};
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp, InvalidPlc};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
+use crate::number::{Dyadic, Exact, Vec3};
 use crate::plc::Complex;
 use crate::predicate::PointStore;
 use rustc_hash::FxHashMap;
@@ -144,7 +145,6 @@ pub fn recover_segments<P: PointStore>(
 ) -> Result<(Subsegments, Incidence), Failure> {
     let incidence = Incidence::new(&delaunay.mesh, points.len());
     let mut recovery = SegmentRecovery {
-        acute: acute_angles(complex, points),
         subsegments: Subsegments::new(complex, points.len()),
         points,
         delaunay,
@@ -168,8 +168,6 @@ struct SegmentRecovery<'a, P> {
     subsegments: Subsegments,
     /// Subsegments to look at.
     missing: Vec<[VertexId; 2]>,
-    /// For each vertex of the input, the smallest angle between two of its segments, if acute.
-    acute: Vec<Option<f64>>,
 }
 
 impl<P: PointStore> SegmentRecovery<'_, P> {
@@ -194,15 +192,34 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
 
     fn vertex_on_segment(&self, s: u32, v: VertexId) -> Failure {
         let segment = self.subsegments.ends[s as usize];
-        match self.subsegments.segment_of_steiner(v) {
-            None => InvalidPlc::VertexOnSegment { segment, vertex: v }.into(),
-            Some(other) => {
-                let other = self.subsegments.ends[other as usize];
-                InvalidPlc::SegmentsMeet {
-                    segments: [segment, other],
-                }
-                .into()
+        let Some(other) = self.subsegments.segment_of_steiner(v) else {
+            return InvalidPlc::VertexOnSegment { segment, vertex: v }.into();
+        };
+        let segments = [segment, self.subsegments.ends[other as usize]];
+        if segments_meet(self.points, segments) {
+            InvalidPlc::SegmentsMeet { segments }.into()
+        } else {
+            GaveUp::SegmentsTooClose { segments }.into()
+        }
+    }
+
+    /// A segment that cannot be divided any more: if another segment meets it, that is why.
+    fn too_short(&self, segment: [VertexId; 2]) -> Failure {
+        let shares_end = |other: &[VertexId; 2]| other.iter().any(|v| segment.contains(v));
+        let others = self
+            .subsegments
+            .ends
+            .iter()
+            .filter(|other| !shares_end(other));
+        let meeting = others
+            .copied()
+            .find(|&other| segments_meet(self.points, [segment, other]));
+        match meeting {
+            Some(other) => InvalidPlc::SegmentsMeet {
+                segments: [segment, other],
             }
+            .into(),
+            None => GaveUp::SegmentTooShort { segment }.into(),
         }
     }
 
@@ -236,14 +253,12 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         reference: Option<Reference>,
     ) -> Result<(), Failure> {
         let ends = self.subsegments.ends[s as usize];
-        let too_short = GaveUp::SegmentTooShort { segment: ends };
         let (at, range) = self.subsegments.range(s, a, b);
         let subsegment = Subsegment {
             ends: ends.map(|v| self.points.rounded(v)),
             range,
-            acute: ends.map(|v| self.acute[v.index()]),
         };
-        let t = split_parameter(&subsegment, reference).ok_or(too_short.clone())?;
+        let t = split_parameter(&subsegment, reference).ok_or_else(|| self.too_short(ends))?;
         let v = self.points.push_on_segment(ends[0], ends[1], t);
         if let Some(near) = self.incidence.tet_at(a) {
             self.delaunay.start_at(near);
@@ -256,7 +271,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             .iter()
             .any(|&w| !w.is_infinite() && self.points.coincide(v, w))
         {
-            return Err(too_short.into());
+            return Err(self.too_short(ends));
         }
         self.delaunay.find_conflicts(self.points, v, start);
         self.queue_endangered();
@@ -284,31 +299,28 @@ fn edges_of(mesh: &TetMesh, t: TetId) -> [[VertexId; 2]; 6] {
     [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]
 }
 
-/// Angles below this make a vertex acute: two segments can then encroach upon each other for ever.
-const ACUTE: f64 = std::f64::consts::FRAC_PI_3;
-/// A vertex with more segments than this is acute without further measurement: so many directions cannot be far apart.
-const MANY_SEGMENTS: usize = 64;
-
-/// For each vertex, the smallest angle between two of its segments, where it is below [`ACUTE`].
-fn acute_angles<P: PointStore>(complex: &Complex, points: &P) -> Vec<Option<f64>> {
-    let mut neighbours: Vec<Vec<VertexId>> = vec![Vec::new(); points.len()];
-    for segment in &complex.segments {
-        let [a, b] = segment.ends;
-        neighbours[a.index()].push(b);
-        neighbours[b.index()].push(a);
+/// Whether two segments without a common end have a common point. Exact.
+fn segments_meet<P: PointStore>(points: &P, [[a, b], [c, d]]: [[VertexId; 2]; 2]) -> bool {
+    if !points.orient3d([a, b, c, d]).is_zero() {
+        return false;
     }
-    let smallest = |v: usize, others: &[VertexId]| {
-        if others.len() > MANY_SEGMENTS {
-            return Some(1e-4);
-        }
-        let p = points.rounded(VertexId::new(v));
-        let pairs = (0..others.len()).flat_map(|i| (0..i).map(move |j| (others[i], others[j])));
-        let angles = pairs.map(|(a, b)| split::angle(p, points.rounded(a), points.rounded(b)));
-        angles.filter(|&angle| angle < ACUTE).min_by(f64::total_cmp)
+    let [a, b, c, d] = [a, b, c, d].map(|v| points.coordinates::<Dyadic>(v));
+    let (ab, cd) = (b.sub(&a), d.sub(&c));
+    let normal = ab.cross(&cd);
+    let sign = |x: Dyadic| x.exact_sign();
+    // On which side of the line through p along u a point q lies, in the common plane.
+    let side = |p: &Vec3<Dyadic>, u: &Vec3<Dyadic>, q: &Vec3<Dyadic>| {
+        sign(u.cross(&q.sub(p)).dot(&normal))
     };
-    neighbours
-        .iter()
-        .enumerate()
-        .map(|(v, others)| smallest(v, others))
-        .collect()
+    if !sign(normal.dot(&normal)).is_zero() {
+        let straddles = |p, u, q, r| !(side(p, u, q) * side(p, u, r)).is_positive();
+        return straddles(&a, &ab, &c, &d) && straddles(&c, &cd, &a, &b);
+    }
+    // Parallel: they meet if they are on one line and an end of one is between the ends of the other.
+    let off = ab.cross(&c.sub(&a));
+    let between = |p: &Vec3<Dyadic>, q: &Vec3<Dyadic>, r: &Vec3<Dyadic>| {
+        !sign(q.sub(p).dot(&q.sub(r))).is_positive()
+    };
+    sign(off.dot(&off)).is_zero()
+        && (between(&a, &c, &b) || between(&a, &d, &b) || between(&c, &a, &d))
 }

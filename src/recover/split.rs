@@ -1,4 +1,4 @@
-//! Where to put a Steiner point on a missing subsegment (paper §2; Si & Gärtner 2005; Ruppert's concentric shells).
+//! Where to put a Steiner point on a missing subsegment (paper §2; Si & Gärtner 2005).
 //!
 //! All of this is a choice, not a decision: any point strictly between the ends keeps the algorithm correct, so plain
 //! floats do. Positions are parameters t of the *original* segment p + t(q−p), kept to as few bits as the choice
@@ -12,8 +12,6 @@ pub struct Subsegment {
     pub ends: [[f64; 3]; 2],
     /// The parameters of the subsegment's ends, 0 ≤ t0 < t1 ≤ 1.
     pub range: [f64; 2],
-    /// For each end of the *segment*, the smallest angle with another segment there, in radians, where it is acute.
-    pub acute: [Option<f64>; 2],
 }
 
 /// The vertex that encroaches upon the subsegment most: the one that sees it under the largest angle.
@@ -32,16 +30,14 @@ const SLACK: f64 = 0.05;
 
 /// The parameter of the new point, strictly inside the range; `None` if the subsegment is too short for doubles.
 ///
-/// 1. Next to an acute vertex: on a sphere around it whose radius is a power of two, the same spheres for all its
-///    segments, so that neighbours at a small angle get subsegments of equal length, which do not encroach upon each
-///    other (an isosceles triangle has acute base angles).
-/// 2. If the reference point lies on a segment that meets ours at an end: at its distance from that end.
-/// 3. Otherwise its projection onto the subsegment, or the middle if that is too close to an end.
+/// 1. If the reference point is a Steiner point on a segment that meets ours at an end: at its distance from that end.
+///    Two subsegments of equal length at a small angle do not encroach upon each other (an isosceles triangle has acute
+///    base angles), so this ends.
+/// 2. Otherwise the reference point's projection onto the subsegment, or the middle if that is too close to an end.
 pub fn split_parameter(s: &Subsegment, reference: Option<Reference>) -> Option<f64> {
     let [t0, t1] = s.range;
     let length = distance(s.ends[0], s.ends[1]);
-    let (t, slack) = shell(s, length, reference)
-        .or_else(|| same_distance(s, length, reference))
+    let (t, slack) = same_distance(s, length, reference)
         .unwrap_or_else(|| (projection(s, reference), SLACK * (t1 - t0)));
     let t = fewest_bits(t, slack);
     (t0 < t && t < t1).then_some(t).or_else(|| {
@@ -50,27 +46,7 @@ pub fn split_parameter(s: &Subsegment, reference: Option<Reference>) -> Option<f
     })
 }
 
-/// Rule 1. The slack keeps the lengths equal to within the angle's tolerance, 1 − cos θ ≈ θ²/2.
-fn shell(s: &Subsegment, length: f64, reference: Option<Reference>) -> Option<(f64, f64)> {
-    let [t0, t1] = s.range;
-    let end = match s.acute {
-        [Some(_), _] if t0 == 0.0 => 0,
-        [_, Some(_)] if t1 == 1.0 => 1,
-        _ => return None,
-    };
-    let angle = s.acute[end]?;
-    let sub_length = (t1 - t0) * length;
-    let reach = reference.map_or(f64::INFINITY, |r| distance(r.point, s.ends[end]));
-    let radius = (sub_length * 2.0 / 3.0).min(reach * 1.01);
-    let radius = power_of_two_below(radius)?;
-    let t = radius / length;
-    Some((
-        if end == 0 { t } else { 1.0 - t },
-        t * (angle * angle / 16.0).min(SLACK),
-    ))
-}
-
-/// Rule 2.
+/// Rule 1.
 fn same_distance(s: &Subsegment, length: f64, reference: Option<Reference>) -> Option<(f64, f64)> {
     let [t0, t1] = s.range;
     let reference = reference?;
@@ -81,7 +57,7 @@ fn same_distance(s: &Subsegment, length: f64, reference: Option<Reference>) -> O
     (t0 + margin <= t && t <= t1 - margin).then_some((t, 0.0))
 }
 
-/// Rule 3.
+/// Rule 2.
 fn projection(s: &Subsegment, reference: Option<Reference>) -> f64 {
     let [t0, t1] = s.range;
     let middle = 0.5 * (t0 + t1);
@@ -112,26 +88,11 @@ fn fewest_bits(t: f64, slack: f64) -> f64 {
     t
 }
 
-fn power_of_two_below(x: f64) -> Option<f64> {
-    (x.is_normal() && x > 0.0).then(|| f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000))
-}
-
 /// The cosine-like measure by which the vertex p sees ab: smaller for larger angles, negative inside the diametral
 /// sphere.
 pub fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     let (u, v) = (sub(a, p), sub(b, p));
     dot(u, v) / (dot(u, u) * dot(v, v)).sqrt()
-}
-
-/// The angle at p between the rays to a and b, in radians.
-pub fn angle(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
-    let (u, v) = (sub(a, p), sub(b, p));
-    let cross = [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ];
-    dot(cross, cross).sqrt().atan2(dot(u, v))
 }
 
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -151,11 +112,10 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    fn whole(acute: [Option<f64>; 2]) -> Subsegment {
+    fn whole() -> Subsegment {
         Subsegment {
             ends: [[0.0; 3], [10.0, 0.0, 0.0]],
             range: [0.0, 1.0],
-            acute,
         }
     }
 
@@ -165,31 +125,27 @@ mod tests {
             point: [3.7, 1.0, 0.0],
             shares: None,
         };
-        assert_eq!(
-            split_parameter(&whole([None, None]), Some(reference)),
-            Some(0.375)
-        );
+        assert_eq!(split_parameter(&whole(), Some(reference)), Some(0.375));
         let near_the_end = Reference {
             point: [0.1, 1.0, 0.0],
             shares: None,
         };
-        assert_eq!(
-            split_parameter(&whole([None, None]), Some(near_the_end)),
-            Some(0.5)
-        );
+        assert_eq!(split_parameter(&whole(), Some(near_the_end)), Some(0.5));
     }
 
     #[test]
-    fn shells_are_powers_of_two() {
-        let t = split_parameter(&whole([Some(0.01), None]), None).expect("long enough");
-        assert!((t * 10.0 - 4.0).abs() < 1e-4, "{t}");
-        let t = split_parameter(&whole([None, Some(0.01)]), None).expect("long enough");
-        assert!((t * 10.0 - 6.0).abs() < 1e-4, "{t}");
+    fn repeats_the_distance_of_a_neighbour() {
+        let reference = Reference {
+            point: [3.0, 0.1, 0.0],
+            shares: Some(0),
+        };
+        let t = split_parameter(&whole(), Some(reference)).expect("long enough");
+        assert_eq!(t * 10.0, (9.01f64).sqrt());
     }
 
     #[test]
     fn stops_when_doubles_end() {
-        let mut s = whole([None, None]);
+        let mut s = whole();
         s.range = [0.5, 0.5f64.next_up()];
         assert_eq!(split_parameter(&s, None), None);
     }

@@ -36,9 +36,11 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
         Domain::Hull => true,
         Domain::Inside => false,
         Domain::Auto => {
+            let open = case.tables.boundary().any(|(f, _)| !cover.constrained[f]);
+            let mut holes = case.input.holes.iter();
             let mut trial = findings.trial();
             hull::check(case, &outer, &mut trial);
-            case.tables.boundary().any(|(f, _)| !cover.constrained[f]) && trial.is_empty()
+            trial.is_empty() && (open || holes.any(|&h| !case.locator.containing(&[h]).is_empty()))
         }
     };
     findings.counts.domain = if is_hull {

@@ -124,6 +124,8 @@ struct Group<'a> {
     areas: Vec<Area<'a>>,
     /// All edges with their chains in place.
     edges: Vec<[VertexId; 2]>,
+    /// The edges that were merged away.
+    merged: FxHashSet<[VertexId; 2]>,
     vertices: FxHashSet<VertexId>,
 }
 
@@ -146,6 +148,11 @@ impl<'a> Group<'a> {
             .map(|&f| Area::new(case.points, axes, &edges_of(f), &case.input.facets[f].holes))
             .collect();
         let edges = distinct(facets.iter().flat_map(|&f| edges_of(f)));
+        let own_edges = facets.iter().flat_map(|&f| &case.input.facets[f].edges);
+        let merged = own_edges
+            .filter(|&&e| fates[e] == Fate::Merged)
+            .map(|&e| case.input.edges[e].ends)
+            .collect();
         let own = facets
             .iter()
             .flat_map(|&f| case.input.facets[f].vertices.iter().copied());
@@ -156,6 +163,7 @@ impl<'a> Group<'a> {
             axes,
             areas,
             edges,
+            merged,
             vertices,
         })
     }
@@ -258,31 +266,49 @@ impl<'a> Group<'a> {
         self.vertices.contains(&v) || *memory.entry(v).or_insert_with(on_plane)
     }
 
-    /// Takes the parts outside the domain out of the areas.
+    /// Takes the parts outside the domain out of the areas. Parts at merged edges are outside together or not at all.
     fn exempt(&mut self, candidates: &[usize], cover: &mut Cover, findings: &mut Findings) {
-        for i in 0..self.areas.len() {
-            let area = &mut self.areas[i];
-            let filled: FxHashSet<usize> = candidates
-                .iter()
-                .map(|&f| area.cell_at(&self.case.tables.faces[f].key))
-                .collect();
+        let tables = &self.case.tables;
+        let filled: Vec<FxHashSet<usize>> = self
+            .areas
+            .iter()
+            .map(|area| {
+                candidates
+                    .iter()
+                    .map(|&f| area.cell_at(&tables.faces[f].key))
+                    .collect()
+            })
+            .collect();
+        let is_joined = |area: &Area, cell| {
+            let mut edges = area.edges_around(cell).into_iter().map(sorted2);
+            !self.merged.is_empty() && edges.any(|e| self.merged.contains(&e))
+        };
+        let mut empty = Vec::new();
+        let mut joined_is_filled = false;
+        for (i, area) in self.areas.iter().enumerate() {
             for cell in area.kept_cells() {
-                if filled.contains(&cell) {
-                    continue;
+                let joined = is_joined(area, cell);
+                if filled[i].contains(&cell) {
+                    joined_is_filled |= joined;
+                } else {
+                    empty.push((i, cell, joined));
                 }
-                let Some(corner) = area.corner(cell) else {
-                    continue;
-                };
-                let [before, v, after] = corner;
-                if !self.case.tables.is_used(v) || !self.case.locator.enters(v, &[before, after]) {
-                    findings.counts.facet_parts_outside += 1;
-                    cover.outside.push(OutsidePart {
-                        facet: self.facets[i],
-                        frame: corner,
-                        boundary: area.edges_around(cell),
-                    });
-                    area.drop_cell(cell);
-                }
+            }
+        }
+        for (i, cell, joined) in empty {
+            let area = &mut self.areas[i];
+            let Some(corner) = area.corner(cell).filter(|_| !(joined && joined_is_filled)) else {
+                continue;
+            };
+            let [before, v, after] = corner;
+            if !tables.is_used(v) || !self.case.locator.enters(v, &[before, after]) {
+                findings.counts.facet_parts_outside += 1;
+                cover.outside.push(OutsidePart {
+                    facet: self.facets[i],
+                    frame: corner,
+                    boundary: area.edges_around(cell),
+                });
+                area.drop_cell(cell);
             }
         }
     }

@@ -24,6 +24,8 @@ pub(super) struct Locator<'a> {
     tables: &'a Tables,
     nodes: Vec<Node>,
     order: Vec<u32>,
+    /// Those of the tetrahedra.
+    bounds: Vec<Bounds>,
 }
 
 impl<'a> Locator<'a> {
@@ -44,8 +46,10 @@ impl<'a> Locator<'a> {
             tables,
             nodes: Vec::new(),
             order: (0..tables.tets.len() as u32).collect(),
+            bounds: Vec::new(),
         };
         locator.split(&bounds, 0, tables.tets.len());
+        locator.bounds = bounds;
         locator
     }
 
@@ -91,12 +95,14 @@ impl<'a> Locator<'a> {
             .flat_map(|&v| self.points.at(v))
             .fold(0.0f64, |m, x| m.max(x.abs()));
         let slack = 16.0 * f64::EPSILON * largest + f64::MIN_POSITIVE;
+        let misses = |[low, high]: Bounds| {
+            (0..3).any(|i| centre[i] < low[i] - slack || centre[i] > high[i] + slack)
+        };
         let mut found = Vec::new();
         let mut stack = vec![0];
         while let Some(n) = stack.pop() {
             let node = &self.nodes[n];
-            let [low, high] = node.bounds;
-            if (0..3).any(|i| centre[i] < low[i] - slack || centre[i] > high[i] + slack) {
+            if misses(node.bounds) {
                 continue;
             }
             if node.second > 0 {
@@ -108,7 +114,7 @@ impl<'a> Locator<'a> {
                 members
                     .iter()
                     .map(|&t| t as usize)
-                    .filter(|&t| self.contains(t, q)),
+                    .filter(|&t| !misses(self.bounds[t]) && self.contains(t, q)),
             );
         }
         found.sort_unstable();

@@ -9,6 +9,7 @@
 //! last product. The number n of factors along the longest path:
 //!
 //! - orient2d, d1·d2 − d3·d4: 2 (two differences) + 1 (product) + 1 (sum) = 4.
+//! - A sum of k determinants: k more.
 //! - orient3d, expanded by rows: 3 (differences) + 1 (inner product) + 1 (its difference) + 1 (outer product) + 2 (sums) = 8.
 //! - insphere, Σ lift_i·det3_i: lift 2 + 1 + 2 = 5, det3 8, their product 1, sums 3: 17.
 //!
@@ -127,11 +128,16 @@ impl Points {
     /// The sign of the average of orient(a, b, c, q) over the points q: the side of the plane abc on which their
     /// centroid lies.
     pub(super) fn side(&self, [a, b, c]: [VertexId; 3], q: &[VertexId]) -> Sign {
-        sum_of_signs(
-            q,
-            |v| self.orient([a, b, c, v]),
-            |v| self.volume([a, b, c, v]),
-        )
+        if let [v] = q {
+            return self.orient([a, b, c, *v]);
+        }
+        let o = self.at(a);
+        let (value, permanent) = q.iter().fold((0.0, 0.0), |(value, permanent), &v| {
+            let (x, p) = det3([b, c, v].map(|w| minus(self.at(w), o)));
+            (value + x, permanent + p)
+        });
+        self.certain(value, permanent, 8 + q.len() as u32)
+            .unwrap_or_else(|| total(q, |v| self.volume([a, b, c, v])))
     }
 
     /// Twice the signed area of abc in the plane of the two axes, exactly.
@@ -143,30 +149,39 @@ impl Points {
 
     /// The sign of [`Points::area`].
     pub(super) fn orient2d(&self, axes: [usize; 2], [a, b, c]: [VertexId; 3]) -> Sign {
-        let [p, q, r] = [a, b, c].map(|v| axes.map(|i| self.at(v)[i]));
-        let left = (q[0] - p[0]) * (r[1] - p[1]);
-        let right = (q[1] - p[1]) * (r[0] - p[0]);
-        self.certain(left - right, left.abs() + right.abs(), 4)
-            .unwrap_or_else(|| self.area(axes, [a, b, c]).exact_sign())
+        self.side2d(axes, [a, b], &[c])
     }
 
     /// The side of the line ab on which the centroid of the points q lies.
     pub(super) fn side2d(&self, axes: [usize; 2], [a, b]: [VertexId; 2], q: &[VertexId]) -> Sign {
-        sum_of_signs(
-            q,
-            |v| self.orient2d(axes, [a, b, v]),
-            |v| self.area(axes, [a, b, v]),
-        )
+        let at = |v: VertexId| axes.map(|i| self.at(v)[i]);
+        let (o, p) = (at(a), at(b));
+        let (value, permanent) = q.iter().fold((0.0, 0.0), |(value, permanent), &v| {
+            let r = at(v);
+            let left = (p[0] - o[0]) * (r[1] - o[1]);
+            let right = (p[1] - o[1]) * (r[0] - o[0]);
+            (
+                value + (left - right),
+                permanent + (left.abs() + right.abs()),
+            )
+        });
+        self.certain(value, permanent, 4 + q.len() as u32)
+            .unwrap_or_else(|| total(q, |v| self.area(axes, [a, b, v])))
     }
 
     /// How a coordinate of the centroid of the points q compares with that of v.
     pub(super) fn compare(&self, axis: usize, q: &[VertexId], v: VertexId) -> Sign {
         let x = self.at(v)[axis];
-        sum_of_signs(
-            q,
-            |w| Sign::of_f64(self.at(w)[axis] - x).expect("coordinates are finite"),
-            |w| Dyadic::from_f64(self.at(w)[axis]) - &Dyadic::from_f64(x),
-        )
+        let mut signs = q
+            .iter()
+            .map(|&w| Sign::of_f64(self.at(w)[axis] - x).expect("coordinates are finite"));
+        let first = signs.next().unwrap_or(Sign::Zero);
+        if signs.all(|s| s == first) {
+            return first;
+        }
+        total(q, |w| {
+            Dyadic::from_f64(self.at(w)[axis]) - &Dyadic::from_f64(x)
+        })
     }
 
     /// Whether three points are exactly collinear.
@@ -232,28 +247,11 @@ fn det3([a, b, c]: [[f64; 3]; 3]) -> (f64, f64) {
     (value[0] + value[1] + value[2], permanent)
 }
 
-/// The sign of Σ value(q): known without arithmetic if no two signs are opposite.
-fn sum_of_signs(
-    q: &[VertexId],
-    sign: impl Fn(VertexId) -> Sign,
-    value: impl Fn(VertexId) -> Dyadic,
-) -> Sign {
-    let mut seen = Sign::Zero;
-    for &v in q {
-        let s = sign(v);
-        if s.is_zero() {
-            continue;
-        }
-        if seen.is_zero() {
-            seen = s;
-        } else if seen != s {
-            return q
-                .iter()
-                .fold(Dyadic::ZERO, |sum, &w| sum + &value(w))
-                .exact_sign();
-        }
-    }
-    seen
+/// The sign of Σ value(q).
+fn total(q: &[VertexId], value: impl Fn(VertexId) -> Dyadic) -> Sign {
+    q.iter()
+        .fold(Dyadic::ZERO, |sum, &v| sum + &value(v))
+        .exact_sign()
 }
 
 #[cfg(test)]

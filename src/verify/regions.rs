@@ -1,10 +1,12 @@
-//! Region attributes: constant up to constrained faces, and as the region points say. Only where the mesh has any.
+//! Region attributes: constant up to constrained faces, and as the region points say.
+//!
+//! Only where mesh and PLC have any: without region points, programs number the parts as they like.
 
 use super::{Case, Findings, Violation};
 
 pub(super) fn check(case: &Case, constrained: &[bool], findings: &mut Findings) {
     let attributes = &case.mesh.regions;
-    if attributes.is_empty() {
+    if attributes.is_empty() || case.plc.regions.is_empty() {
         return;
     }
     for (f, face) in case.tables.faces.iter().enumerate() {

@@ -13,6 +13,7 @@ use super::points::{cross, dot, minus};
 use super::tables::sorted2;
 use super::{Case, Findings, Violation};
 use crate::mesh::VertexId;
+use rustc_hash::FxHashSet;
 
 /// What became of a segment.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +42,17 @@ impl Fate {
 pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
     let input = &case.input;
     let mut fates = Vec::with_capacity(input.edges.len());
+    let listed: FxHashSet<[VertexId; 2]> = case
+        .mesh
+        .edges
+        .iter()
+        .map(|e| sorted2(e.vertices))
+        .collect();
     for (e, edge) in input.edges.iter().enumerate() {
-        let fate = if let Some(chain) = chain(case, edge.ends) {
+        let chain = chain(case, edge.ends);
+        let unlisted = case.options.merge_angle.is_some()
+            && chain.as_ref().is_some_and(|c| is_unlisted(&listed, c));
+        let fate = if let Some(chain) = chain.filter(|_| !unlisted || !is_mergeable(case, e)) {
             Fate::Chain(chain)
         } else if is_mergeable(case, e) {
             Fate::Merged
@@ -71,6 +81,12 @@ pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
         fates.push(fate);
     }
     fates
+}
+
+/// Whether the mesh lists edges, but not those of the chain.
+fn is_unlisted(listed: &FxHashSet<[VertexId; 2]>, chain: &[VertexId]) -> bool {
+    let is_listed = |w: &[VertexId]| listed.contains(&sorted2([w[0], w[1]]));
+    !listed.is_empty() && !chain.windows(2).any(is_listed)
 }
 
 /// Reports an input edge as missing.

@@ -171,16 +171,20 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         }
     }
 
-    /// Certifies the crossing triangles on the boundary of the volume that `created` fills.
+    /// Certifies the crossing triangles on the boundary of the flipped volume, now filled by `created`.
+    ///
+    /// A 4-4 flip is two flips at once, one on each side of the plane of the old and the new edge. The two triangles of
+    /// that plane are on the boundary of both, so they are certified, too; forgetting them leaves the queue without the
+    /// flips that must come next. (The inner triangles of a 2-3 or 3-2 flip belong to the circuit that has just been
+    /// flipped and stay locally convex.)
     fn certify_around(&mut self, created: &[TetId]) {
+        let two_flips = created.len() == 4;
         for &t in created {
             for slot in 0..4 {
                 let s = t.corner(slot);
                 let n = self.mesh.neighbor(s);
-                if !created.contains(&n)
-                    && self.region.contains(&n)
-                    && self.sides.crosses(&self.mesh.facet(s))
-                {
+                let boundary = !created.contains(&n) || (two_flips && s < self.mesh.twin(s));
+                if boundary && self.region.contains(&n) && self.sides.crosses(&self.mesh.facet(s)) {
                     self.certify(s);
                 }
             }
