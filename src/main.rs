@@ -78,10 +78,10 @@ struct VerifyArguments {
     #[arg(long, value_enum, default_value_t = DomainArgument::Auto)]
     domain: DomainArgument,
     /// How far a Steiner point may be from its segment or facet, in units in the last place of the largest coordinate.
-    #[arg(long, default_value_t = VerifyOptions::default().tolerance)]
+    #[arg(long, default_value_t = VerifyOptions::default().tolerance, value_parser = tolerance)]
     tolerance: f64,
     /// Accept facets with one marker as merged if the angle between them is at least this many degrees (TetGen: 179.9).
-    #[arg(long)]
+    #[arg(long, value_parser = merge_angle)]
     merge_angle: Option<f64>,
     /// Say nothing; only the exit status.
     #[arg(short, long)]
@@ -98,6 +98,20 @@ struct DelaunayArguments {
     /// No summary.
     #[arg(short, long)]
     quiet: bool,
+}
+
+fn tolerance(word: &str) -> Result<f64, String> {
+    let number: f64 = word.parse().map_err(|_| "not a number".to_owned())?;
+    let good = number.is_finite() && number >= 0.0;
+    good.then_some(number)
+        .ok_or("not a finite number from 0 on".to_owned())
+}
+
+fn merge_angle(word: &str) -> Result<f64, String> {
+    let number: f64 = word.parse().map_err(|_| "not a number".to_owned())?;
+    let good = (0.0..=180.0).contains(&number);
+    good.then_some(number)
+        .ok_or("not an angle between 0 and 180 degrees".to_owned())
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -161,7 +175,8 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(stop) => {
-            eprintln!("tetflip: {}", stop.message);
+            // A closed stderr must not turn the exit status into that of a panic.
+            let _ = writeln!(std::io::stderr(), "tetflip: {}", stop.message);
             ExitCode::from(stop.status)
         }
     }
@@ -333,7 +348,10 @@ fn hull_faces(mesh: &TetMesh) -> Vec<ExportedFace> {
 }
 
 fn read(path: &Path) -> Result<Plc, Stop> {
-    read_plc(path).map_err(|error| Stop::input(format!("{}: {error}", path.display())))
+    read_plc(path).map_err(|error| match error {
+        FormatError::Io { .. } => Stop::input(error),
+        error => Stop::input(format!("{}: {error}", path.display())),
+    })
 }
 
 fn save(path: Option<&Path>, mesh: &ExportedMesh) -> Result<(), Stop> {
