@@ -95,12 +95,22 @@ fn inward<P: PointStore>(
         .collect();
     let n = link.len();
     let side = |i: usize| link[i % n].2;
+    let vertex = |i: usize| link[i % n].1;
+    // A face that has vertices of f alone is on the side of f if it turns left from ab in projection. If f is flat the
+    // order of the sides says the same.
+    let on_f = |i: usize| side(i) == Side::On && (sides.flat || sides.turns_left(a, b, vertex(i)));
+    let result = |i: usize| Inward::Face(mesh.corner_of(link[i % n].0, vertex(i + 1)), vertex(i));
+    if let Some(i) =
+        (0..n).find(|&i| on_f(i) && !sides.flat && is_subpolygon(face([a, b, vertex(i)])))
+    {
+        return Ok(result(i));
+    }
     if let Some(i) = (0..n).find(|&i| side(i) == Side::Right && side(i + 1) == Side::Left) {
         return Ok(Inward::Crossing(link[i].0));
     }
     // Runs of vertices on h, as ranges of `link`. A flat f follows a right vertex and precedes a left one, and on the far
     // side it is the other way round. A vertex that is on the wrong side because f is not flat spoils one of the two.
-    let on = |i: usize| matches!(side(i), Side::On | Side::Stray);
+    let on = |i: usize| side(i) == Side::Stray || on_f(i);
     let rank = |side, near: Side, far: Side| i32::from(side == near) - i32::from(side == far);
     let runs = (0..n).filter(|&i| on(i) && !on(i + n - 1)).map(|first| {
         let last = (first..first + n)
@@ -113,15 +123,11 @@ fn inward<P: PointStore>(
     let best = runs.filter(|run| run.0 >= 0).max_by_key(|run| run.0);
     let (_, first, last) = best.ok_or(Obstacle::Nothing([a, b]))?;
     if let Some(i) = (first..=last).find(|&i| side(i) == Side::Stray) {
-        return Err(Obstacle::Stray(link[i % n].1));
+        return Err(Obstacle::Stray(vertex(i)));
     }
-    let chosen = (first..=last).find(|&i| is_subpolygon(face([a, b, link[i % n].1])));
-    let chosen = chosen.unwrap_or(if side(last + 1) == Side::Left {
+    Ok(result(if side(last + 1) == Side::Left {
         last
     } else {
         first
-    });
-    let (t, v, _) = link[chosen % n];
-    let next = link[(chosen + 1) % n].1;
-    Ok(Inward::Face(mesh.corner_of(t, next), v))
+    }))
 }

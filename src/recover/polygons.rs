@@ -142,7 +142,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             polygon,
             polygon.vertices.iter().copied().chain(on_boundary),
         );
-        let flat = sides.is_flat();
+        let flat = sides.flat;
         let mut displaced: Vec<usize> = Vec::new();
         let mut covering = self.search(f, &sides, &boundary)?;
         if may_displace {

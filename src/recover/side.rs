@@ -1,7 +1,7 @@
 //! On which side of a polygon a vertex lies (paper §3.2: left, right, or neither).
 
 use crate::mesh::{TetId, TetMesh, VertexId};
-use crate::number::Sign;
+use crate::number::{Approx, Dyadic, Exact, Number, Sign};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -29,6 +29,8 @@ pub struct Sides<'a, P> {
     points: &'a P,
     /// Three vertices of the polygon; see [`Polygon::frame`].
     pub frame: [VertexId; 3],
+    /// Whether all vertices of f lie exactly on h.
+    pub flat: bool,
     vertices: FxHashSet<VertexId>,
     known: RefCell<FxHashMap<VertexId, Side>>,
 }
@@ -40,10 +42,15 @@ impl<'a, P: PointStore> Sides<'a, P> {
         polygon: &Polygon,
         vertices: impl IntoIterator<Item = VertexId>,
     ) -> Sides<'a, P> {
+        let [a, b, c] = polygon.frame;
+        let vertices: FxHashSet<VertexId> = vertices.into_iter().collect();
         Sides {
             points,
             frame: polygon.frame,
-            vertices: vertices.into_iter().collect(),
+            flat: vertices
+                .iter()
+                .all(|&v| points.orient3d([a, b, c, v]).is_zero()),
+            vertices,
             known: RefCell::default(),
         }
     }
@@ -54,17 +61,27 @@ impl<'a, P: PointStore> Sides<'a, P> {
         Sides {
             points: self.points,
             frame: [b, a, c],
+            flat: self.flat,
             vertices: self.vertices.clone(),
             known: RefCell::default(),
         }
     }
 
-    /// Whether all vertices of f lie exactly on h.
-    pub fn is_flat(&self) -> bool {
-        let [a, b, c] = self.frame;
-        self.vertices
-            .iter()
-            .all(|&v| self.points.orient3d([a, b, c, v]).is_zero())
+    /// Whether one who walks from a to b on f, on its left side, and then to c, turns left: the sign of
+    /// n·((b−a)×(c−a)) with the normal n of the frame.
+    pub fn turns_left(&self, a: VertexId, b: VertexId, c: VertexId) -> bool {
+        let filtered = self.turn::<Approx>([a, b, c]).sign();
+        filtered
+            .unwrap_or_else(|| self.turn::<Dyadic>([a, b, c]).exact_sign())
+            .is_positive()
+    }
+
+    fn turn<N: Number>(&self, corner: [VertexId; 3]) -> N {
+        let normal = |[a, b, c]: [VertexId; 3]| {
+            let [a, b, c] = [a, b, c].map(|v| self.points.coordinates::<N>(v));
+            b.sub(&a).cross(&c.sub(&a))
+        };
+        normal(self.frame).dot(&normal(corner))
     }
 
     /// The point store.
