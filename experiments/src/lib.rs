@@ -1,5 +1,8 @@
-//! What the experiments have in common: scenes, results as CSV rows, plots.
+//! What the experiments have in common: scenes, methods and their outcomes, results as CSV rows, plots.
 
+pub mod method;
+pub mod outcome;
 pub mod plot;
 pub mod record;
+pub mod sample;
 pub mod scene;

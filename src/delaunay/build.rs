@@ -28,13 +28,17 @@ pub fn delaunay<P: PointStore>(
     vertices: &[VertexId],
 ) -> Result<Delaunay, DelaunayError> {
     let order = insertion_order(points, vertices);
-    let seed = first_tetrahedron(points, &order)?;
+    // Work on a copy of the points in the order of insertion: neighbours in space are then neighbours in memory.
+    let sorted = points.reordered(&order);
+    let local: Vec<VertexId> = (0..order.len()).map(VertexId::new).collect();
+    let seed = first_tetrahedron(&sorted, &local)?;
     let mut result = Delaunay::from_tetrahedron(seed);
     // About 6.7 tetrahedra per vertex for uniform points, and what an insertion holds at the same time.
     result.mesh.reserve(7 * order.len() + 64);
-    for &v in order.iter().filter(|v| !seed.contains(v)) {
-        result.insert(points, v);
+    for &v in local.iter().filter(|v| !seed.contains(v)) {
+        result.insert(&sorted, v);
     }
+    result.mesh.rename_vertices(|v| order[v.index()]);
     Ok(result)
 }
 

@@ -86,7 +86,7 @@ impl Delaunay {
     /// [`Delaunay::find_conflicts`], by the star of p.
     pub fn replace_conflicts(&mut self, p: VertexId) {
         self.make_star(p);
-        self.glue_star();
+        self.glue_star(p);
         self.remove_conflicts();
     }
 
@@ -178,7 +178,7 @@ impl Delaunay {
 
     /// Glues the star's tetrahedra to each other: for each edge of the boundary, turn around it through the old
     /// conflict zone, from one boundary facet to the other.
-    fn glue_star(&mut self) {
+    fn glue_star(&mut self, p: VertexId) {
         for (&c, &star) in self.scratch.boundary.iter().zip(&self.scratch.created) {
             for slot in (0..4).filter(|&slot| slot != c.slot()) {
                 let mine = star.corner(slot);
@@ -190,15 +190,14 @@ impl Delaunay {
                 let mut behind = self.mesh.vertex(c);
                 loop {
                     let across = self.mesh.twin(exit);
-                    let t = across.tet();
-                    if self.scratch.verdict(t) != Some(true) {
+                    let ahead = self.mesh.vertex(across);
+                    let next = self.mesh.corner_of(across.tet(), behind);
+                    if ahead == p {
                         // `exit` is a boundary corner and points at its star tetrahedron.
-                        let theirs = self.mesh.corner_of(t, behind);
-                        self.mesh.glue(mine, theirs);
+                        self.mesh.glue(mine, next);
                         break;
                     }
-                    let ahead = self.mesh.vertex(across);
-                    exit = self.mesh.corner_of(t, behind);
+                    exit = next;
                     behind = ahead;
                 }
             }

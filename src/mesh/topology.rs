@@ -21,9 +21,16 @@ pub const NEXT: [[usize; 4]; 4] = [[4, 2, 3, 1], [3, 4, 0, 2], [1, 3, 4, 0], [2,
 /// A tetrahedralization of a closed 3-sphere: finite tetrahedra and ghosts. See the module's invariants.
 #[derive(Clone, Debug, Default)]
 pub struct TetMesh {
-    tets: Vec<[VertexId; 4]>,
-    twins: Vec<[Corner; 4]>,
+    tets: Vec<Tet>,
     free: Vec<TetId>,
+}
+
+/// Vertices and twins side by side: a step across a facet touches one cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+struct Tet {
+    vertices: [VertexId; 4],
+    twins: [Corner; 4],
 }
 
 /// A removed tetrahedron, until its id is used again.
@@ -55,13 +62,11 @@ impl TetMesh {
     /// Room for `n` tetrahedra without further allocation.
     pub fn reserve(&mut self, n: usize) {
         self.tets.reserve(n);
-        self.twins.reserve(n);
     }
 
     /// Removes everything, keeping the memory.
     pub fn clear(&mut self) {
         self.tets.clear();
-        self.twins.clear();
         self.free.clear();
     }
 
@@ -96,39 +101,40 @@ impl TetMesh {
     /// The four vertices.
     #[inline]
     pub fn vertices(&self, t: TetId) -> [VertexId; 4] {
-        self.tets[t.index()]
+        self.tets[t.index()].vertices
     }
 
     /// Whether `t` is in the mesh.
     #[inline]
     pub fn is_alive(&self, t: TetId) -> bool {
-        self.tets[t.index()] != DEAD
+        self.tets[t.index()].vertices != DEAD
     }
 
     /// Whether `t` has the infinite vertex.
     #[inline]
     pub fn is_ghost(&self, t: TetId) -> bool {
-        let [a, b, c, d] = self.tets[t.index()];
+        let [a, b, c, d] = self.tets[t.index()].vertices;
         a.is_infinite() | b.is_infinite() | c.is_infinite() | d.is_infinite()
     }
 
     /// The vertex at corner `c`.
     #[inline]
     pub fn vertex(&self, c: Corner) -> VertexId {
-        self.tets[c.tet().index()][c.slot()]
+        self.tets[c.tet().index()].vertices[c.slot()]
     }
 
     /// The three vertices of the facet opposite `c`; with the vertex at `c` in front they keep the orientation.
     #[inline]
     pub fn facet(&self, c: Corner) -> [VertexId; 3] {
-        let v = self.tets[c.tet().index()];
-        FACET[c.slot()].map(|i| v[i])
+        let v = &self.tets[c.tet().index()].vertices;
+        let [i, j, k] = FACET[c.slot()];
+        [v[i], v[j], v[k]]
     }
 
     /// The same facet seen from the other side: the corner of the neighbour that is opposite to it.
     #[inline]
     pub fn twin(&self, c: Corner) -> Corner {
-        self.twins[c.tet().index()][c.slot()]
+        self.tets[c.tet().index()].twins[c.slot()]
     }
 
     /// The neighbour across the facet opposite `c`.
@@ -146,13 +152,16 @@ impl TetMesh {
     /// The slot of `v` in `t`, if it is a vertex of `t`.
     #[inline]
     pub fn slot_of(&self, t: TetId, v: VertexId) -> Option<usize> {
-        self.tets[t.index()].iter().position(|&w| w == v)
+        self.tets[t.index()].vertices.iter().position(|&w| w == v)
     }
 
     /// The corner of `t` at `v`, a vertex of `t`.
     #[inline]
     pub fn corner_of(&self, t: TetId, v: VertexId) -> Corner {
-        t.corner(self.slot_of(t, v).expect("v is a vertex of t"))
+        let [a, b, c, d] = self.tets[t.index()].vertices;
+        debug_assert!(a == v || b == v || c == v || d == v, "v is a vertex of t");
+        // Without branches: this is asked in the innermost loops, and cannot be predicted.
+        t.corner(usize::from(b == v) | usize::from(c == v) << 1 | 3 * usize::from(d == v))
     }
 
     /// Whether `t` has all of the given vertices.
@@ -179,36 +188,45 @@ impl TetMesh {
     /// A new tetrahedron, not glued to anything yet.
     #[inline]
     pub fn add(&mut self, vertices: [VertexId; 4]) -> TetId {
+        let tet = Tet {
+            vertices,
+            twins: [Corner::NONE; 4],
+        };
         if let Some(t) = self.free.pop() {
-            self.tets[t.index()] = vertices;
-            self.twins[t.index()] = [Corner::NONE; 4];
+            self.tets[t.index()] = tet;
             return t;
         }
         let t = TetId::new(self.tets.len());
         assert!(t.0 < 1 << 30, "fewer than 2^30 tetrahedra");
-        self.tets.push(vertices);
-        self.twins.push([Corner::NONE; 4]);
+        self.tets.push(tet);
         t
     }
 
     /// Removes `t`. The facets of its neighbours still name it, until they are glued anew.
     #[inline]
     pub fn remove(&mut self, t: TetId) {
-        self.tets[t.index()] = DEAD;
+        self.tets[t.index()].vertices = DEAD;
         self.free.push(t);
+    }
+
+    /// Gives every finite vertex a new id.
+    pub fn rename_vertices(&mut self, new_id: impl Fn(VertexId) -> VertexId) {
+        for v in self.tets.iter_mut().flat_map(|t| &mut t.vertices).filter(|v| !v.is_infinite()) {
+            *v = new_id(*v);
+        }
     }
 
     /// Declares that `c` and `d` are the two sides of one facet.
     #[inline]
     pub fn glue(&mut self, c: Corner, d: Corner) {
-        self.twins[c.tet().index()][c.slot()] = d;
-        self.twins[d.tet().index()][d.slot()] = c;
+        self.tets[c.tet().index()].twins[c.slot()] = d;
+        self.tets[d.tet().index()].twins[d.slot()] = c;
     }
 
     /// Lets `c` name `d` without the converse: a scratch pointer during an insertion.
     #[inline]
     pub(crate) fn set_twin(&mut self, c: Corner, d: Corner) {
-        self.twins[c.tet().index()][c.slot()] = d;
+        self.tets[c.tet().index()].twins[c.slot()] = d;
     }
 
     /// Replaces the tetrahedra `old` by `new`, which fill the same space: every facet of the new ones is a facet of

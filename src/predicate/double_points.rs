@@ -2,6 +2,13 @@
 //!
 //! Each sign goes through stages until one is sure:
 //!
+//! 0. the formula over plain doubles, with a bound from the largest coordinate differences X, Y, Z alone. By the proof in
+//!    [`Approx`] the same evaluation has an error of at most k·u′·m, where k = 8 for orient3d (difference 1, product 3,
+//!    minor 4, product 6, two sums 7, 8) and k = 18 for insphere (the same 8 for the five coefficients, sign 9; lift 5;
+//!    product 9 + 5 + 1 = 15; three more sums), and m, the formula over absolute values, is at most 6·X·Y·Z and
+//!    4·6·X·Y·Z·L with L = 3·max(X,Y,Z)² (1 + 8u for its own rounding). Where X, Y and Z are all in [2^−150, 2^150]
+//!    nothing over- or underflows, and the terms T of that proof stay below 2^−1022 · 2^(4·150+10), a fraction 2^−9 of u′
+//!    of the bound. The constants below are rounded up by 1 %;
 //! 1. the formula over [`Approx`] (running error bound, proved there), which also certifies *zero* where all coordinates
 //!    lie on a grid 2^g and the determinant, an integer multiple of 2^(g·degree), is proved smaller than that;
 //! 2. Shewchuk's adaptive expansions from the `robust` crate, where they can neither overflow nor underflow: all
@@ -19,6 +26,8 @@ use robust::Coord3D;
 #[derive(Clone, Debug, Default)]
 pub struct DoublePoints {
     points: Vec<[f64; 3]>,
+    /// The identities of reordered points; `None` where each has its index.
+    identities: Option<Vec<u32>>,
     range: Range,
 }
 
@@ -96,7 +105,11 @@ impl DoublePoints {
             assert!(x.is_finite(), "coordinates are finite");
             range.include(x);
         }
-        DoublePoints { points, range }
+        DoublePoints {
+            points,
+            identities: None,
+            range,
+        }
     }
 
     /// All points, in order of id.
@@ -113,6 +126,23 @@ impl DoublePoints {
     fn coord(&self, v: VertexId) -> Coord3D<f64> {
         let [x, y, z] = self.points[v.index()];
         Coord3D { x, y, z }
+    }
+
+    /// Stages 1 and 2.
+    fn orient3d_filtered(&self, v: [VertexId; 4]) -> Sign {
+        let [a, b, c, d] = v;
+        let [a, b, c, d]: [Vec3<Approx>; 4] = [self.at(a), self.at(b), self.at(c), self.at(d)];
+        let filtered = formula::orient3d([&a, &b, &c, &d]).sign_on_grid(self.range.quantum3);
+        filtered.unwrap_or_else(|| self.orient3d_exact(v))
+    }
+
+    /// Stages 1 and 2.
+    fn insphere_filtered(&self, v: [VertexId; 5]) -> Sign {
+        let [a, b, c, d, e] = v;
+        let [a, b, c, d, e]: [Vec3<Approx>; 5] =
+            [self.at(a), self.at(b), self.at(c), self.at(d), self.at(e)];
+        let filtered = formula::insphere([&a, &b, &c, &d, &e]).sign_on_grid(self.range.quantum5);
+        filtered.unwrap_or_else(|| self.insphere_exact(v))
     }
 
     #[cold]
@@ -152,6 +182,19 @@ impl PointStore for DoublePoints {
         self.at(v)
     }
 
+    fn reordered(&self, order: &[VertexId]) -> DoublePoints {
+        DoublePoints {
+            points: order.iter().map(|v| self.points[v.index()]).collect(),
+            identities: Some(order.iter().map(|&v| self.identity(v)).collect()),
+            range: self.range,
+        }
+    }
+
+    #[inline]
+    fn identity(&self, v: VertexId) -> u32 {
+        self.identities.as_ref().map_or(v.0, |identities| identities[v.index()])
+    }
+
     /// # Panics
     /// If a coordinate is not finite.
     fn push(&mut self, p: [f64; 3]) -> VertexId {
@@ -159,12 +202,19 @@ impl PointStore for DoublePoints {
             assert!(x.is_finite(), "coordinates are finite");
             self.range.include(x);
         }
+        let v = VertexId::new(self.points.len());
         self.points.push(p);
-        VertexId::new(self.points.len() - 1)
+        if let Some(identities) = &mut self.identities {
+            identities.push(v.0);
+        }
+        v
     }
 
     fn truncate(&mut self, n: usize) {
         self.points.truncate(n);
+        if let Some(identities) = &mut self.identities {
+            identities.truncate(n);
+        }
     }
 
     /// Rounds each coordinate of p + t(q−p) to a double, so the point is off the line by about half an ulp, or not at
@@ -182,17 +232,55 @@ impl PointStore for DoublePoints {
 
     #[inline]
     fn orient3d(&self, v: [VertexId; 4]) -> Sign {
-        let p = v.map(|v| self.at::<Approx>(v));
-        let filtered = formula::orient3d(p.each_ref()).sign_on_grid(self.range.quantum3);
-        filtered.unwrap_or_else(|| self.orient3d_exact(v))
+        // Written out: array::map is not always inlined, and this is the innermost loop.
+        let [a, b, c, d] = v;
+        let [a, b, c, d]: [Vec3<f64>; 4] = [self.at(a), self.at(b), self.at(c), self.at(d)];
+        let det = formula::orient3d([&a, &b, &c, &d]);
+        let [x, y, z] = largest_differences(&a, [&b, &c, &d]);
+        if det.abs() > ORIENT3D_BOUND * (x * y * z) && in_static_range([x, y, z]) {
+            return if det > 0.0 { Sign::Positive } else { Sign::Negative };
+        }
+        self.orient3d_filtered(v)
     }
 
     #[inline]
     fn insphere_unperturbed(&self, v: [VertexId; 5]) -> Sign {
-        let p = v.map(|v| self.at::<Approx>(v));
-        let filtered = formula::insphere(p.each_ref()).sign_on_grid(self.range.quantum5);
-        filtered.unwrap_or_else(|| self.insphere_exact(v))
+        let [a, b, c, d, e] = v;
+        let [a, b, c, d, e]: [Vec3<f64>; 5] =
+            [self.at(a), self.at(b), self.at(c), self.at(d), self.at(e)];
+        let det = formula::insphere([&a, &b, &c, &d, &e]);
+        let [x, y, z] = largest_differences(&e, [&a, &b, &c, &d]);
+        let side = x.max(y).max(z);
+        if det.abs() > INSPHERE_BOUND * (x * y * z) * (side * side) && in_static_range([x, y, z]) {
+            return if det > 0.0 { Sign::Positive } else { Sign::Negative };
+        }
+        self.insphere_filtered(v)
     }
+}
+
+/// 8·6·2⁻⁵², rounded up.
+const ORIENT3D_BOUND: f64 = 48.5 * f64::EPSILON;
+/// 18·24·3·2⁻⁵², rounded up.
+const INSPHERE_BOUND: f64 = 1310.0 * f64::EPSILON;
+
+/// The largest |x|, |y|, |z| among the differences of some points to one.
+#[inline]
+fn largest_differences<const N: usize>(origin: &Vec3<f64>, points: [&Vec3<f64>; N]) -> [f64; 3] {
+    let mut largest = [0.0f64; 3];
+    for p in points {
+        for i in 0..3 {
+            largest[i] = largest[i].max((p.0[i] - origin.0[i]).abs());
+        }
+    }
+    largest
+}
+
+/// Whether stage 0 is proved for these differences.
+#[inline]
+fn in_static_range(largest: [f64; 3]) -> bool {
+    const LOW: f64 = 1.0 / (1u128 << 100) as f64 / (1u64 << 50) as f64;
+    const HIGH: f64 = (1u128 << 100) as f64 * (1u64 << 50) as f64;
+    largest.iter().all(|&x| (LOW..=HIGH).contains(&x))
 }
 
 #[cfg(test)]

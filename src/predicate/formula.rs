@@ -42,7 +42,7 @@ pub fn circuit<N: Number>([a, b, c, d, e]: [&Vec3<N>; 5]) -> ([N; 5], [Vec3<N>; 
     };
     let (ab, ac, ad) = (minor(0, 1), minor(0, 2), minor(0, 3));
     let (bc, bd, cd) = (minor(1, 2), minor(1, 3), minor(2, 3));
-    let [az, bz, cz, dz] = [0, 1, 2, 3].map(|i: usize| &q[i].0[2]);
+    let (az, bz, cz, dz) = (&q[0].0[2], &q[1].0[2], &q[2].0[2], &q[3].0[2]);
     // det3(i,j,k) = O(e,i,j,k) = z_i·minor(j,k) − z_j·minor(i,k) + z_k·minor(i,j)
     let bcd = bz.clone() * &cd - &(cz.clone() * &bd) + &(dz.clone() * &bc);
     let acd = az.clone() * &cd - &(cz.clone() * &ad) + &(dz.clone() * &ac);
@@ -68,8 +68,8 @@ pub fn orient4d<N: Number>(circuit: &[N; 5], heights: [&N; 4]) -> N {
 #[inline]
 pub fn insphere<N: Number>(points: [&Vec3<N>; 5]) -> N {
     let (c, q) = circuit(points);
-    let lift = [0, 1, 2, 3].map(|i: usize| q[i].dot(&q[i]));
-    orient4d(&c, [&lift[0], &lift[1], &lift[2], &lift[3]])
+    let [a, b, c4, d] = &q;
+    orient4d(&c, [&a.dot(a), &b.dot(b), &c4.dot(c4), &d.dot(d)])
 }
 
 #[cfg(test)]

@@ -33,12 +33,15 @@ pub trait PointStore {
     /// Adds the point p + t(q−p), 0 < t < 1, as exactly as the store's coordinates allow.
     fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: f64) -> VertexId;
 
+    /// A store of the given points in the given order, which gives each the identity it has here. For locality: an
+    /// algorithm that visits vertices in this order finds neighbours close together in memory.
+    fn reordered(&self, order: &[VertexId]) -> Self
+    where
+        Self: Sized;
+
     /// The rank of `v` in the order ε_0 ≫ ε_1 ≫ … of the weight perturbation: its identity, never its place in some
     /// spatial order.
-    #[inline]
-    fn identity(&self, v: VertexId) -> u32 {
-        v.0
-    }
+    fn identity(&self, v: VertexId) -> u32;
 
     /// The sign of det[b−a, c−a, d−a].
     fn orient3d(&self, v: [VertexId; 4]) -> Sign {

@@ -57,6 +57,13 @@ fn numerator_and_denominator<N: Number>(p: &[Vec3<N>; 5], rates: &[N; 5]) -> (N,
     )
 }
 
+/// Whether two circuits have the same five vertices.
+fn same_vertices(mut a: [VertexId; 5], mut b: [VertexId; 5]) -> bool {
+    a.sort_unstable();
+    b.sort_unstable();
+    a == b
+}
+
 /// The rates d_v of the vertices of one region, each computed once.
 struct Rates<'a, P, N> {
     points: &'a P,
@@ -261,6 +268,10 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
     }
 
     fn compare(&mut self, a: &Event<Quotient<N>>, b: &Event<Quotient<N>>) -> Ordering {
+        if same_vertices(a.circuit, b.circuit) {
+            // Two triangles of one circuit, or one triangle queued again: the same time, perturbed or not.
+            return Ordering::Equal;
+        }
         let ab = a.time.numerator.clone() * &b.time.denominator;
         let ba = b.time.numerator.clone() * &a.time.denominator;
         match (ab - &ba).exact_sign() {

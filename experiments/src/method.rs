@@ -1,0 +1,79 @@
+//! The ways to insert polygons that the experiments compare, and their names in tables and plots.
+
+use std::fmt;
+use tetflip::recover::polygons::{Insertion, Times};
+
+/// One way to insert polygons.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Method(pub Insertion);
+
+impl Method {
+    /// All ways that this build has, in the order of tables: cavity retriangulation, then flips with each number type.
+    pub fn all() -> Vec<Method> {
+        let times = [
+            Times::F32,
+            Times::F64,
+            Times::Exact,
+            #[cfg(feature = "rug")]
+            Times::Rug,
+        ];
+        let flips = times.into_iter().map(|t| Method(Insertion::Flip(t)));
+        [Method(Insertion::Cavity)]
+            .into_iter()
+            .chain(flips)
+            .collect()
+    }
+
+    /// The algorithm: the column `insertion`.
+    pub fn insertion(self) -> &'static str {
+        match self.0 {
+            Insertion::Cavity => "cavity",
+            Insertion::Flip(_) => "flip",
+        }
+    }
+
+    /// The number type of the flip times: the column `times`. Cavities have none.
+    pub fn times(self) -> &'static str {
+        match self.0 {
+            Insertion::Cavity => "",
+            Insertion::Flip(Times::F32) => "f32",
+            Insertion::Flip(Times::F64) => "f64",
+            Insertion::Flip(Times::Exact) => "exact",
+            #[cfg(feature = "rug")]
+            Insertion::Flip(Times::Rug) => "rug",
+        }
+    }
+
+    /// Whether a flat polygon can always be inserted in this way. Rounded flip times can fail (paper, §3.4).
+    pub fn always_succeeds(self) -> bool {
+        !matches!(self.0, Insertion::Flip(Times::F32 | Times::F64))
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let times = self.times();
+        let space = if times.is_empty() { "" } else { " " };
+        f.pad(&format!("{}{space}{times}", self.insertion()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_differ() {
+        let names: Vec<String> = Method::all().iter().map(Method::to_string).collect();
+        assert_eq!(names[..4], ["cavity", "flip f32", "flip f64", "flip exact"]);
+        assert_eq!(names.len(), if cfg!(feature = "rug") { 5 } else { 4 });
+    }
+
+    #[test]
+    fn only_rounded_times_may_fail() {
+        let safe = Method::all().into_iter().filter(|m| m.always_succeeds());
+        let times: Vec<&str> = safe.map(Method::times).collect();
+        assert_eq!(times[..2], ["", "exact"]);
+        assert!(!times.iter().any(|t| t.starts_with('f')));
+    }
+}

@@ -1,0 +1,54 @@
+//! How a run ended, as one word and one number for a table.
+
+use tetflip::error::{Failure, GaveUp};
+
+/// The word of a run that succeeded.
+pub const OK: &str = "ok";
+
+/// The column `outcome`: [`OK`], or what kind of failure.
+pub fn word<T>(result: &Result<T, Failure>) -> &'static str {
+    match result {
+        Ok(_) => OK,
+        Err(Failure::Delaunay(_)) => "flat-vertex-set",
+        Err(Failure::Plc(_) | Failure::Invalid(_)) => "invalid-plc",
+        Err(Failure::GaveUp(gave_up)) => match gave_up {
+            GaveUp::SegmentTooShort { .. } => "segment-too-short",
+            GaveUp::NotFlat { .. } => "not-flat",
+            GaveUp::Stuck { .. } => "stuck",
+            GaveUp::NotDelaunay { .. } => "not-delaunay",
+            GaveUp::FlipOrder { .. } => "flip-order",
+            GaveUp::NothingInside => "nothing-inside",
+        },
+    }
+}
+
+/// The column `left`: the crossing tetrahedra that stuck flips left, or the faces that are not locally Delaunay.
+pub fn left<T>(result: &Result<T, Failure>) -> usize {
+    match result {
+        Err(Failure::GaveUp(GaveUp::Stuck { crossing, .. })) => *crossing,
+        Err(Failure::GaveUp(GaveUp::NotDelaunay { faces, .. })) => *faces,
+        _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn failed(gave_up: GaveUp) -> Result<(), Failure> {
+        Err(gave_up.into())
+    }
+
+    #[test]
+    fn words_and_what_is_left() {
+        let facets = vec![0];
+        let stuck = failed(GaveUp::Stuck {
+            facets: facets.clone(),
+            crossing: 5,
+        });
+        let dented = failed(GaveUp::NotDelaunay { facets, faces: 2 });
+        assert_eq!((word(&stuck), left(&stuck)), ("stuck", 5));
+        assert_eq!((word(&dented), left(&dented)), ("not-delaunay", 2));
+        assert_eq!((word(&Ok(())), left(&Ok(()))), (OK, 0));
+    }
+}
