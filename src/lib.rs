@@ -1,6 +1,31 @@
 //! tetflip: constrained Delaunay tetrahedralizations (CDTs) of piecewise linear complexes (PLCs), after
 //! Si & Shewchuk, *Incrementally Constructing and Updating Constrained Delaunay Tetrahedralizations with Finite
-//! Precision Coordinates*.
+//! Precision Coordinates*. Polygons are inserted either by cavity retriangulation or by bistellar flips, whose order is
+//! exact or, to reproduce the paper, rounded.
+//!
+//! ```text
+//! file ── format ──▶ Plc ── plc ──▶ Complex ── delaunay ──▶ Delaunay of the vertices
+//!                                                             │ recover::segments (Steiner points)
+//!                                                             ▼
+//!                                                  recover::polygons: cavity | flips
+//!                                                             │ recover::domain
+//!                                                             ▼
+//! files ◀── format ── ExportedMesh ◀───────────────── cdt::Cdt::export
+//!                          └──▶ verify: Plc + ExportedMesh ──▶ Verdict (exact; shares no code with the above)
+//! ```
+//!
+//! [`cdt`] is that picture as code, one call per phase. Below it, `number` ← `predicate` and `mesh` (topology alone)
+//! know nothing of each other; `delaunay` and `recover` join them.
+//!
+//! Every sign that decides anything is exact, for all finite doubles. The library neither panics on user input nor
+//! prints: bad input and an algorithm that gave up are values ([`error::Failure`]), counts and seconds are a struct
+//! ([`report::Report`]).
+//!
+//! # Example
+//!
+//! ```
+#![doc = include_str!("../examples/cube.rs")]
+//! ```
 
 pub mod cdt;
 pub mod delaunay;

@@ -1,12 +1,16 @@
 //! The command line program: arguments → library → files. No algorithm here.
 
 use clap::{Parser, Subcommand, ValueEnum};
+use serde::Serialize;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::delaunay::delaunay;
 use tetflip::error::Failure;
-use tetflip::format::{read_mesh, read_plc, write_mesh};
+use tetflip::format::{
+    FormatError, mesh_paths, read_mesh, read_plc, read_poly, read_smesh, write_mesh,
+};
 use tetflip::mesh::{ExportedFace, ExportedMesh, TetMesh, VertexId};
 use tetflip::plc::{Complex, Plc};
 use tetflip::predicate::DoublePoints;
@@ -74,10 +78,10 @@ struct VerifyArguments {
     #[arg(long, value_enum, default_value_t = DomainArgument::Auto)]
     domain: DomainArgument,
     /// How far a Steiner point may be from its segment or facet, in units in the last place of the largest coordinate.
-    #[arg(long, default_value_t = VerifyOptions::default().tolerance)]
+    #[arg(long, default_value_t = VerifyOptions::default().tolerance, value_parser = tolerance)]
     tolerance: f64,
     /// Accept facets with one marker as merged if the angle between them is at least this many degrees (TetGen: 179.9).
-    #[arg(long)]
+    #[arg(long, value_parser = merge_angle)]
     merge_angle: Option<f64>,
     /// Say nothing; only the exit status.
     #[arg(short, long)]
@@ -94,6 +98,20 @@ struct DelaunayArguments {
     /// No summary.
     #[arg(short, long)]
     quiet: bool,
+}
+
+fn tolerance(word: &str) -> Result<f64, String> {
+    let number: f64 = word.parse().map_err(|_| "not a number".to_owned())?;
+    let good = number.is_finite() && number >= 0.0;
+    good.then_some(number)
+        .ok_or("not a finite number from 0 on".to_owned())
+}
+
+fn merge_angle(word: &str) -> Result<f64, String> {
+    let number: f64 = word.parse().map_err(|_| "not a number".to_owned())?;
+    let good = (0.0..=180.0).contains(&number);
+    good.then_some(number)
+        .ok_or("not an angle between 0 and 180 degrees".to_owned())
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -157,7 +175,8 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(stop) => {
-            eprintln!("tetflip: {}", stop.message);
+            // A closed stderr must not turn the exit status into that of a panic.
+            let _ = writeln!(std::io::stderr(), "tetflip: {}", stop.message);
             ExitCode::from(stop.status)
         }
     }
@@ -169,6 +188,11 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         keep_hull: arguments.hull,
         merge_coplanar: !arguments.no_merge,
     };
+    check_outputs(
+        &arguments.input,
+        arguments.output.as_deref(),
+        arguments.report.as_deref(),
+    )?;
     let plc = read(&arguments.input)?;
     let mut report = Report::default();
     let bar = progress_bar(plc.facets.len(), arguments.quiet);
@@ -213,7 +237,7 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
     }
     save(arguments.output.as_deref(), &mesh)?;
     if !arguments.quiet {
-        println!(
+        say(&format!(
             "{} vertices ({} Steiner points), {} tetrahedra, {} faces on facets; {} flips{}",
             mesh.vertices.len(),
             report.steiner_points,
@@ -221,7 +245,7 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
             mesh.faces.len(),
             report.insertion_counts.flips.flips(),
             if arguments.verify { "; verified" } else { "" },
-        );
+        ));
     }
     Ok(())
 }
@@ -260,7 +284,7 @@ fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
     };
     let verdict = verify(&plc, &mesh, options);
     if !arguments.quiet {
-        print!("{verdict}");
+        say(&verdict.to_string());
     }
     if verdict.is_ok() {
         Ok(())
@@ -270,6 +294,7 @@ fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
 }
 
 fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop> {
+    check_outputs(&arguments.input, arguments.output.as_deref(), None)?;
     let plc = read(&arguments.input)?;
     let vertices_only = Plc {
         first_index: plc.first_index,
@@ -300,11 +325,11 @@ fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop> {
         save(Some(path), &mesh)?;
     }
     if !arguments.quiet {
-        println!(
+        say(&format!(
             "{} distinct vertices ({duplicates} duplicates merged), {} tetrahedra",
             distinct.len(),
             tets.len()
-        );
+        ));
     }
     Ok(())
 }
@@ -323,7 +348,10 @@ fn hull_faces(mesh: &TetMesh) -> Vec<ExportedFace> {
 }
 
 fn read(path: &Path) -> Result<Plc, Stop> {
-    read_plc(path).map_err(|error| Stop::input(format!("{}: {error}", path.display())))
+    read_plc(path).map_err(|error| match error {
+        FormatError::Io { .. } => Stop::input(error),
+        error => Stop::input(format!("{}: {error}", path.display())),
+    })
 }
 
 fn save(path: Option<&Path>, mesh: &ExportedMesh) -> Result<(), Stop> {
@@ -333,13 +361,72 @@ fn save(path: Option<&Path>, mesh: &ExportedMesh) -> Result<(), Stop> {
     }
 }
 
+/// Refuses outputs that cannot be written or would replace an input, before any work is done.
+fn check_outputs(input: &Path, mesh: Option<&Path>, report: Option<&Path>) -> Result<(), Stop> {
+    let mut outputs: Vec<PathBuf> = report.map(Path::to_path_buf).into_iter().collect();
+    if let Some(path) = mesh {
+        outputs.extend(mesh_paths(path).map_err(Stop::input)?);
+    }
+    let node = input.with_extension("node");
+    for output in outputs {
+        let replaces = |file: &Path| match (output.canonicalize(), file.canonicalize()) {
+            (Ok(output), Ok(file)) => output == file,
+            _ => false,
+        };
+        if replaces(input) || (replaces(&node) && reads_node_file(input)) {
+            return Err(Stop::input(format!(
+                "{} is an input and would be overwritten; choose another name",
+                output.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the vertices of a `.poly` or `.smesh` file are in the `.node` file beside it.
+fn reads_node_file(input: &Path) -> bool {
+    let extension = input.extension().unwrap_or_default().to_ascii_lowercase();
+    let bytes = std::fs::read(input).unwrap_or_default();
+    let mut asked = false;
+    let nodes = || {
+        asked = true;
+        std::fs::read(input.with_extension("node")).map_err(|source| FormatError::Io {
+            path: input.to_owned(),
+            source,
+        })
+    };
+    // Errors are reported when the file is read in earnest.
+    let _ = match extension.to_str() {
+        Some("poly") => read_poly(&bytes, nodes),
+        Some("smesh") => read_smesh(&bytes, nodes),
+        _ => return false,
+    };
+    asked
+}
+
+/// The report as a file: the run, then what the library counted.
+#[derive(Serialize)]
+struct ReportFile<'a> {
+    input: String,
+    outcome: &'a str,
+    #[serde(flatten)]
+    report: &'a Report,
+}
+
 fn write_report(path: &Path, input: &Path, outcome: &str, report: &Report) -> Result<(), Stop> {
-    let mut value = serde_json::to_value(report).map_err(Stop::input)?;
-    value["input"] = input.display().to_string().into();
-    value["outcome"] = outcome.into();
-    let text = serde_json::to_string_pretty(&value).map_err(Stop::input)?;
+    let file = ReportFile {
+        input: input.display().to_string(),
+        outcome,
+        report,
+    };
+    let text = serde_json::to_string_pretty(&file).map_err(Stop::input)?;
     std::fs::write(path, text + "\n")
         .map_err(|error| Stop::input(format!("{}: {error}", path.display())))
+}
+
+/// Prints a line. That nobody reads it (a closed pipe) is no failure of the run.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stdout(), "{line}");
 }
 
 /// A bar on stderr, where that is a terminal.

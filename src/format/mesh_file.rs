@@ -21,11 +21,7 @@ use tempfile::NamedTempFile;
 /// finite, or if a file cannot be written. Nothing is written in the first two cases, and no file is left half written
 /// in the third.
 pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, MeshFileError> {
-    let extension = path.extension().and_then(|e| e.to_str());
-    let format = extension.and_then(Format::of_extension);
-    let format = format.ok_or_else(|| MeshFileError::WriteExtension {
-        path: path.to_path_buf(),
-    })?;
+    let format = Format::to_write(path)?;
     check(mesh)?;
     let staged = match format {
         Format::TetGen => [
@@ -46,6 +42,19 @@ pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, Mesh
         Format::Vtu => vec![stage(path.to_path_buf(), |out| vtu::write(out, mesh))?],
     };
     staged.into_iter().map(Staged::publish).collect()
+}
+
+/// The files that [`write_mesh`] writes for `path`.
+///
+/// # Errors
+/// If the extension names no format that can be written.
+pub fn mesh_paths(path: &Path) -> Result<Vec<PathBuf>, MeshFileError> {
+    Ok(match Format::to_write(path)? {
+        Format::TetGen => ["node", "ele", "face", "edge"]
+            .map(|extension| path.with_extension(extension))
+            .into(),
+        Format::Vtu => vec![path.to_path_buf()],
+    })
 }
 
 /// Reads `NAME.node` and `NAME.ele`, and `NAME.face` and `NAME.edge` if they exist; `path` is any of the four.
@@ -72,6 +81,15 @@ enum Format {
 }
 
 impl Format {
+    fn to_write(path: &Path) -> Result<Format, MeshFileError> {
+        let extension = path.extension().and_then(|e| e.to_str());
+        extension
+            .and_then(Format::of_extension)
+            .ok_or_else(|| MeshFileError::WriteExtension {
+                path: path.to_path_buf(),
+            })
+    }
+
     fn of_extension(extension: &str) -> Option<Format> {
         match extension {
             "node" | "ele" | "face" | "edge" => Some(Format::TetGen),

@@ -16,7 +16,7 @@ mod vtu;
 
 pub use error::{FormatError, Place, Reason};
 pub use mesh_error::{MeshFileError, MeshLineError, UnwritableMesh};
-pub use mesh_file::{read_mesh, write_mesh};
+pub use mesh_file::{mesh_paths, read_mesh, write_mesh};
 pub use off::read_off;
 pub use poly::{read_node, read_poly, read_smesh};
 pub use stl::read_stl;

@@ -1,6 +1,6 @@
 //! Polygon insertion by bistellar flips (paper §3.2 and Fig. 7; Shewchuk 2003).
 //!
-//! [`FlipInsertion::insert`] and [`FlipInsertion::certify`] are the figure's two procedures, line by line. The order of
+//! [`FlipInsertion::insert`] and `certify` are the figure's two procedures, line by line. The order of
 //! the queue is that of a [`FlipTimes`]: rounded quotients as in the paper, with the paper's three patches (§3.3), each
 //! counted; or exact quotients with the perturbation of the weights, which need no patch.
 

@@ -1,0 +1,51 @@
+//! Meshes a cube and verifies the mesh.
+
+use tetflip::cdt::{Options, tetrahedralize};
+use tetflip::mesh::VertexId;
+use tetflip::plc::{Facet, Plc};
+use tetflip::report::Report;
+use tetflip::verify::{VerifyOptions, verify};
+
+fn main() -> Result<(), tetflip::error::Failure> {
+    // The corners of the unit cube, numbered by the bits x, y, z, and its six faces.
+    let vertices = (0..8u8)
+        .map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from))
+        .collect();
+    let faces = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let facets = faces
+        .map(|corners| Facet {
+            polygons: vec![corners.map(VertexId).to_vec()],
+            ..Facet::default()
+        })
+        .into();
+    let plc = Plc {
+        vertices,
+        facets,
+        ..Plc::default()
+    };
+
+    // By default: polygons are inserted by flips in exact order, and the inside is kept.
+    let mut report = Report::default();
+    let mesh = tetrahedralize(
+        &plc,
+        &Options::default(),
+        &mut report,
+        &mut |_polygons_done| {},
+    )?;
+    assert_eq!(report.steiner_points, 0);
+    assert_eq!(mesh.vertices, plc.vertices);
+    assert_eq!(mesh.faces.len(), 12);
+
+    // Do not believe it: check it, exactly.
+    let verdict = verify(&plc, &mesh, VerifyOptions::default());
+    assert!(verdict.is_ok(), "{verdict}");
+    assert_eq!(verdict.counts.volume, 1.0);
+    Ok(())
+}
