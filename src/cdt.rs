@@ -30,7 +30,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Options {
         Options {
-            insertion: Insertion::Flip(Times::Exact),
+            insertion: Insertion::Flip(Times::Filtered),
             keep_hull: false,
             merge_coplanar: true,
         }

@@ -49,7 +49,7 @@ struct MeshArguments {
     #[arg(long, value_enum, default_value_t = InsertArgument::Flip)]
     insert: InsertArgument,
     /// The number type of the flip queue (with --insert flip).
-    #[arg(long, value_enum, default_value_t = TimesArgument::Exact)]
+    #[arg(long, value_enum, default_value_t = TimesArgument::Filtered)]
     times: TimesArgument,
     /// Keep the whole convex hull instead of what the facets enclose.
     #[arg(long)]
@@ -132,7 +132,9 @@ enum TimesArgument {
     F32,
     /// Double precision, as in the paper; can fail.
     F64,
-    /// Exact dyadic numbers.
+    /// Exact, decided by floats where they suffice.
+    Filtered,
+    /// Exact dyadic numbers throughout.
     Exact,
     /// Exact GMP rationals (only if built with the feature rug).
     Rug,
@@ -261,6 +263,7 @@ fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
     Ok(Insertion::Flip(match arguments.times {
         TimesArgument::F32 => Times::F32,
         TimesArgument::F64 => Times::F64,
+        TimesArgument::Filtered => Times::Filtered,
         TimesArgument::Exact => Times::Exact,
         #[cfg(feature = "rug")]
         TimesArgument::Rug => Times::Rug,

@@ -2,7 +2,8 @@
 
 use super::cavity::{self, Face, Refused, face};
 use super::flips::{
-    ExactTimes, FlipCounts, FlipInsertion, FlipOutcome, FlipTimes, RoundedTimes, polygon_faces,
+    ExactTimes, FilteredTimes, FlipCounts, FlipInsertion, FlipOutcome, FlipTimes, RoundedTimes,
+    polygon_faces,
 };
 use super::missing::{self, Obstacle};
 use super::region::Region;
@@ -25,6 +26,9 @@ pub enum Times {
     F32,
     /// Quotients rounded to double precision: the paper's own.
     F64,
+    /// Float enclosures, exact dyadic numbers where they overlap, and the perturbation: the exact order, mostly at the
+    /// price of floats.
+    Filtered,
     /// Exact dyadic numbers, and the perturbation.
     Exact,
     /// GMP rationals, and the perturbation.
@@ -224,7 +228,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             self.counts.cavity_fallbacks += 1;
         }
         let times = match self.insertion {
-            Insertion::Cavity => Times::Exact,
+            Insertion::Cavity => Times::Filtered,
             Insertion::Flip(times) => times,
         };
         let mut result = self.by_flips(f, sides, flat, region, times);
@@ -344,6 +348,9 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
                 &region,
                 RoundedTimes::<P, f64>::new(points, frame, &is_left),
             ),
+            Times::Filtered => {
+                self.run(sides, &region, FilteredTimes::new(points, frame, &is_left))
+            }
             Times::Exact => self.run(
                 sides,
                 &region,

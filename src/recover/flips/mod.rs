@@ -5,14 +5,16 @@
 //! counted; or exact quotients with the perturbation of the weights, which need no patch.
 
 mod event;
+mod filtered;
 mod moves;
 mod queue;
 mod time;
 
 pub use event::Event;
+pub use filtered::{FilteredTime, FilteredTimes};
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
-pub use time::{ExactTimes, FlipTimes, Float, Quotient, RoundedTimes};
+pub use time::{ExactTimes, FlipTimes, Float, LeftVertices, Quotient, RoundedTimes, Undecided};
 
 use super::region::Region;
 use super::side::{Side, Sides};
@@ -45,6 +47,8 @@ pub struct FlipCounts {
     pub non_crossing: u64,
     /// Flip times discarded because the rounded quotient was not finite.
     pub overflows: u64,
+    /// Comparisons that float enclosures left to exact quotients; filtered times only.
+    pub compared_exactly: u64,
     /// Comparisons that two equal times left to the perturbation; exact times only.
     pub ties: u64,
 }
@@ -67,6 +71,7 @@ impl FlipCounts {
         self.discarded_outside += other.discarded_outside;
         self.non_crossing += other.non_crossing;
         self.overflows += other.overflows;
+        self.compared_exactly += other.compared_exactly;
         self.ties += other.ties;
     }
 }
@@ -151,7 +156,10 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         if crossing > 0 && outcome == FlipOutcome::Done {
             outcome = FlipOutcome::Stuck { crossing };
         }
-        (self.counts.ties, self.counts.overflows) = self.times.undecided();
+        let undecided = self.times.undecided();
+        self.counts.compared_exactly = undecided.compared_exactly;
+        self.counts.ties = undecided.ties;
+        self.counts.overflows = undecided.overflows;
         (outcome, tets, self.counts)
     }
 

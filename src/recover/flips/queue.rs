@@ -84,6 +84,7 @@ impl<T> FlipQueue<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use super::super::time::Undecided;
     use crate::mesh::{TetId, VertexId};
 
     /// Times that are plain integers.
@@ -98,8 +99,8 @@ mod tests {
         fn compare(&mut self, a: &Event<i32>, b: &Event<i32>) -> Ordering {
             a.time.cmp(&b.time)
         }
-        fn undecided(&self) -> (u64, u64) {
-            (0, 0)
+        fn undecided(&self) -> Undecided {
+            Undecided::default()
         }
     }
 

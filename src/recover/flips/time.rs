@@ -39,12 +39,26 @@ pub trait FlipTimes {
     /// Which of two events comes first. `Equal` means: in any order.
     fn compare(&mut self, a: &Event<Self::Time>, b: &Event<Self::Time>) -> Ordering;
 
-    /// How many comparisons were left to the perturbation, and how many times were too large for the number type.
-    fn undecided(&self) -> (u64, u64);
+    /// What the number type did not decide by itself.
+    fn undecided(&self) -> Undecided;
 
     /// Whether the order is the true one, so that the patches of §3.3 are neither needed nor applied.
     const EXACT: bool;
 }
+
+/// Counts of what a number type did not decide by itself.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct Undecided {
+    /// Comparisons that float enclosures left to exact quotients.
+    pub compared_exactly: u64,
+    /// Comparisons that exact quotients left to the perturbation.
+    pub ties: u64,
+    /// Times discarded because a rounded quotient was not finite.
+    pub overflows: u64,
+}
+
+/// Tells the left vertices of a polygon.
+pub type LeftVertices<'a> = &'a dyn Fn(VertexId) -> bool;
 
 /// N and D of S(τ) = N + τ·D, from the five points and their rates d.
 fn numerator_and_denominator<N: Number>(p: &[Vec3<N>; 5], rates: &[N; 5]) -> (N, N) {
@@ -58,21 +72,30 @@ fn numerator_and_denominator<N: Number>(p: &[Vec3<N>; 5], rates: &[N; 5]) -> (N,
 }
 
 /// Whether two circuits have the same five vertices.
-fn same_vertices(mut a: [VertexId; 5], mut b: [VertexId; 5]) -> bool {
+pub(super) fn same_vertices(mut a: [VertexId; 5], mut b: [VertexId; 5]) -> bool {
     a.sort_unstable();
     b.sort_unstable();
     a == b
 }
 
 /// The rates d_v of the vertices of one region, each computed once.
-struct Rates<'a, P, N> {
+pub(super) struct Rates<'a, P, N> {
     points: &'a P,
     frame: [VertexId; 3],
-    is_left: &'a dyn Fn(VertexId) -> bool,
+    is_left: LeftVertices<'a>,
     known: FxHashMap<VertexId, N>,
 }
 
-impl<P: PointStore, N: Number> Rates<'_, P, N> {
+impl<'a, P: PointStore, N: Number> Rates<'a, P, N> {
+    pub(super) fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
+        Rates {
+            points,
+            frame,
+            is_left,
+            known: FxHashMap::default(),
+        }
+    }
+
     fn of(&mut self, v: VertexId) -> N {
         if !(self.is_left)(v) {
             return N::from_f64(0.0);
@@ -87,7 +110,8 @@ impl<P: PointStore, N: Number> Rates<'_, P, N> {
         rate
     }
 
-    fn evaluate(&mut self, circuit: [VertexId; 5]) -> (N, N) {
+    /// N and D of a circuit.
+    pub(super) fn evaluate(&mut self, circuit: [VertexId; 5]) -> (N, N) {
         let p = circuit.map(|v| self.points.coordinates::<N>(v));
         let rates = circuit.map(|v| self.of(v));
         numerator_and_denominator(&p, &rates)
@@ -100,24 +124,18 @@ struct DenominatorSign<'a, P> {
     exact: Rates<'a, P, Dyadic>,
 }
 
-impl<P: PointStore> DenominatorSign<'_, P> {
+impl<'a, P: PointStore> DenominatorSign<'a, P> {
+    fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
+        DenominatorSign {
+            filter: Rates::new(points, frame, is_left),
+            exact: Rates::new(points, frame, is_left),
+        }
+    }
+
     fn of(&mut self, circuit: [VertexId; 5]) -> Sign {
         let (_, d) = self.filter.evaluate(circuit);
         d.sign()
             .unwrap_or_else(|| self.exact.evaluate(circuit).1.exact_sign())
-    }
-}
-
-fn rates<'a, P, N>(
-    points: &'a P,
-    frame: [VertexId; 3],
-    is_left: &'a dyn Fn(VertexId) -> bool,
-) -> Rates<'a, P, N> {
-    Rates {
-        points,
-        frame,
-        is_left,
-        known: FxHashMap::default(),
     }
 }
 
@@ -131,13 +149,10 @@ pub struct RoundedTimes<'a, P, N> {
 
 impl<'a, P: PointStore, N: Number> RoundedTimes<'a, P, N> {
     /// For the polygon with the given frame; `is_left` tells the left vertices.
-    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: &'a dyn Fn(VertexId) -> bool) -> Self {
+    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
         RoundedTimes {
-            denominator: DenominatorSign {
-                filter: rates(points, frame, is_left),
-                exact: rates(points, frame, is_left),
-            },
-            rates: rates(points, frame, is_left),
+            denominator: DenominatorSign::new(points, frame, is_left),
+            rates: Rates::new(points, frame, is_left),
             overflows: 0,
         }
     }
@@ -179,8 +194,11 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
         }
     }
 
-    fn undecided(&self) -> (u64, u64) {
-        (0, self.overflows)
+    fn undecided(&self) -> Undecided {
+        Undecided {
+            overflows: self.overflows,
+            ..Undecided::default()
+        }
     }
 
     fn compare(&mut self, a: &Event<N>, b: &Event<N>) -> Ordering {
@@ -195,6 +213,14 @@ pub struct Quotient<N> {
     denominator: N,
 }
 
+#[cfg(test)]
+impl<N> Quotient<N> {
+    /// N and D.
+    pub(super) fn parts(&self) -> (&N, &N) {
+        (&self.numerator, &self.denominator)
+    }
+}
+
 /// Times in exact numbers, ties decided by the perturbation of the weights.
 pub struct ExactTimes<'a, P, N> {
     denominator: DenominatorSign<'a, P>,
@@ -205,54 +231,16 @@ pub struct ExactTimes<'a, P, N> {
 
 impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
     /// For the polygon with the given frame; `is_left` tells the left vertices.
-    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: &'a dyn Fn(VertexId) -> bool) -> Self {
+    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
         ExactTimes {
-            denominator: DenominatorSign {
-                filter: rates(points, frame, is_left),
-                exact: rates(points, frame, is_left),
-            },
-            rates: rates(points, frame, is_left),
+            denominator: DenominatorSign::new(points, frame, is_left),
+            rates: Rates::new(points, frame, is_left),
             ties: 0,
         }
     }
 
-    /// The signs of t_v for the vertices of both circuits, in ε order, until one is not zero.
-    fn compare_perturbed(&mut self, a: &Event<Quotient<N>>, b: &Event<Quotient<N>>) -> Ordering {
-        self.ties += 1;
-        let points = self.rates.points;
-        let coefficients = |event: &Event<Quotient<N>>| {
-            let p = event.circuit.map(|v| points.coordinates::<N>(v));
-            formula::circuit(p.each_ref()).0
-        };
-        let (ca, cb) = (coefficients(a), coefficients(b));
-        let mut vertices: Vec<VertexId> = a.circuit.into_iter().chain(b.circuit).collect();
-        vertices.sort_unstable_by_key(|&v| points.identity(v));
-        vertices.dedup();
-        let zero = N::from_f64(0.0);
-        for v in vertices {
-            let of = |circuit: &[VertexId; 5], c: &[N; 5]| {
-                circuit
-                    .iter()
-                    .position(|&w| w == v)
-                    .map_or(zero.clone(), |i| c[i].clone())
-            };
-            let term = of(&a.circuit, &ca) * &b.time.denominator
-                - &(of(&b.circuit, &cb) * &a.time.denominator);
-            match term.exact_sign() {
-                Sign::Positive => return Ordering::Less,
-                Sign::Negative => return Ordering::Greater,
-                Sign::Zero => {}
-            }
-        }
-        Ordering::Equal
-    }
-}
-
-impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
-    type Time = Quotient<N>;
-    const EXACT: bool = true;
-
-    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
+    /// N and D, if D > 0.
+    pub(super) fn quotient(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
         if !self.denominator.of(circuit).is_positive() {
             return None;
         }
@@ -263,8 +251,62 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
         })
     }
 
-    fn undecided(&self) -> (u64, u64) {
-        (self.ties, 0)
+    /// Which of two events, given by circuit and time, comes first: the sign of t_0, then the perturbation.
+    pub(super) fn compare_quotients(&mut self, a: Timed<N>, b: Timed<N>) -> Ordering {
+        let ab = a.1.numerator.clone() * &b.1.denominator;
+        let ba = b.1.numerator.clone() * &a.1.denominator;
+        match (ab - &ba).exact_sign() {
+            Sign::Positive => Ordering::Less,
+            Sign::Negative => Ordering::Greater,
+            Sign::Zero => self.compare_perturbed(a, b),
+        }
+    }
+
+    /// The signs of t_v for the vertices of both circuits, in ε order, until one is not zero.
+    fn compare_perturbed(&mut self, a: Timed<N>, b: Timed<N>) -> Ordering {
+        self.ties += 1;
+        let points = self.rates.points;
+        let coefficients = |circuit: [VertexId; 5]| {
+            let p = circuit.map(|v| points.coordinates::<N>(v));
+            formula::circuit(p.each_ref()).0
+        };
+        let (ca, cb) = (coefficients(a.0), coefficients(b.0));
+        let mut vertices: Vec<VertexId> = a.0.into_iter().chain(b.0).collect();
+        vertices.sort_unstable_by_key(|&v| points.identity(v));
+        vertices.dedup();
+        let zero = N::from_f64(0.0);
+        for v in vertices {
+            let of = |circuit: &[VertexId; 5], c: &[N; 5]| {
+                let place = circuit.iter().position(|&w| w == v);
+                place.map_or(zero.clone(), |i| c[i].clone())
+            };
+            let term = of(&a.0, &ca) * &b.1.denominator - &(of(&b.0, &cb) * &a.1.denominator);
+            match term.exact_sign() {
+                Sign::Positive => return Ordering::Less,
+                Sign::Negative => return Ordering::Greater,
+                Sign::Zero => {}
+            }
+        }
+        Ordering::Equal
+    }
+}
+
+/// A circuit with its time.
+type Timed<'t, N> = ([VertexId; 5], &'t Quotient<N>);
+
+impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
+    type Time = Quotient<N>;
+    const EXACT: bool = true;
+
+    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
+        self.quotient(circuit)
+    }
+
+    fn undecided(&self) -> Undecided {
+        Undecided {
+            ties: self.ties,
+            ..Undecided::default()
+        }
     }
 
     fn compare(&mut self, a: &Event<Quotient<N>>, b: &Event<Quotient<N>>) -> Ordering {
@@ -272,12 +314,6 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
             // Two triangles of one circuit, or one triangle queued again: the same time, perturbed or not.
             return Ordering::Equal;
         }
-        let ab = a.time.numerator.clone() * &b.time.denominator;
-        let ba = b.time.numerator.clone() * &a.time.denominator;
-        match (ab - &ba).exact_sign() {
-            Sign::Positive => Ordering::Less,
-            Sign::Negative => Ordering::Greater,
-            Sign::Zero => self.compare_perturbed(a, b),
-        }
+        self.compare_quotients((a.circuit, &a.time), (b.circuit, &b.time))
     }
 }
