@@ -519,6 +519,47 @@ fn intersections_are_refused_by_name() {
     }
 }
 
+/// After a rotation facets are flat only to rounding. That may be too hard, but it is no intersection, and vertex 1, on
+/// the line of the edge 2-3, must not be found inside the facet of that edge.
+#[test]
+fn a_rotated_box_is_not_called_invalid() {
+    let (cos, sin) = (0.955336489125606, 0.29552020666133955);
+    let rotate = |[x, y, z]: Point| {
+        let (x, y) = (cos * x - sin * y, sin * x + cos * y);
+        [x, cos * y - sin * z, sin * y + cos * z]
+    };
+    let mut text = String::new();
+    for line in ROOMS.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        // Vertices, the hole and the regions have their point after a number; the lines of facets begin with 1 0 or 4.
+        let point = |i: usize| words[i].parse::<f64>().expect("a coordinate");
+        if line.starts_with('#')
+            || words.len() < 4
+            || line.starts_with("1 0 ")
+            || words[0] == "4" && words.len() == 5
+            || line == "20 3 0 0"
+        {
+            writeln!(text, "{line}").expect("a string");
+        } else {
+            let [x, y, z] = rotate([point(1), point(2), point(3)]);
+            let rest = words[4..].join(" ");
+            writeln!(text, "{} {x} {y} {z} {rest}", words[0]).expect("a string");
+        }
+    }
+    let place = Place::with(&[("rotated.poly", &text)]);
+    for way in ["cavity", "flip"] {
+        let run = place.run(&format!("mesh rotated.poly --insert {way} --verify"));
+        if run.output.status.code() != Some(0) {
+            let run = run.ends_with(1);
+            assert!(
+                run.stderr().contains("not exactly flat"),
+                "{}",
+                run.stderr()
+            );
+        }
+    }
+}
+
 #[test]
 fn bad_usage_ends_with_2() {
     let place = Place::with(&[("a.poly", &poly(&[CUBE], &[]))]);
