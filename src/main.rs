@@ -80,9 +80,13 @@ struct VerifyArguments {
     /// How far a Steiner point may be from its segment or facet, in units in the last place of the largest coordinate.
     #[arg(long, default_value_t = VerifyOptions::default().tolerance, value_parser = tolerance)]
     tolerance: f64,
-    /// Accept facets with one marker as merged if the angle between them is at least this many degrees (TetGen: 179.9).
-    #[arg(long, value_parser = merge_angle)]
-    merge_angle: Option<f64>,
+    /// Facets with one marker may have been merged if the angle between them is at least this many degrees. TetGen merges
+    /// from 179.9 on. Only asked where the mesh does not hold with exactly coplanar facets merged, and then said.
+    #[arg(long, value_parser = merge_angle, default_value_t = 179.9)]
+    merge_angle: f64,
+    /// Refuse a mesh in which facets that are not exactly coplanar have been merged.
+    #[arg(long)]
+    strict: bool,
     /// Say nothing; only the exit status.
     #[arg(short, long)]
     quiet: bool,
@@ -272,19 +276,41 @@ fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
 fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
     let plc = read(&arguments.plc)?;
     let mesh = read_mesh(&arguments.mesh).map_err(Stop::input)?;
-    let options = VerifyOptions {
+    let exactly = VerifyOptions {
         domain: match arguments.domain {
             DomainArgument::Auto => Domain::Auto,
             DomainArgument::Hull => Domain::Hull,
             DomainArgument::Inside => Domain::Inside,
         },
         tolerance: arguments.tolerance,
-        merge_angle: arguments.merge_angle,
         ..VerifyOptions::default()
     };
-    let verdict = verify(&plc, &mesh, options);
+    let mut verdict = verify(&plc, &mesh, exactly);
+    if !verdict.is_ok() && !arguments.strict {
+        let leniently = VerifyOptions {
+            merge_angle: Some(arguments.merge_angle),
+            ..exactly
+        };
+        let lenient = verify(&plc, &mesh, leniently);
+        // Say which of the two readings of the input the verdict is about.
+        if lenient.is_ok() || lenient.totals.values().sum::<usize>() < verdict.totals.values().sum()
+        {
+            if !arguments.quiet {
+                say(&format!(
+                    "{} facet edges of the input are missing between facets that meet at {} degrees or more: the mesh's \
+                     maker merged facets that are not exactly coplanar; they are verified as merged (see --strict)",
+                    lenient
+                        .counts
+                        .segments_merged
+                        .saturating_sub(verdict.counts.segments_merged),
+                    arguments.merge_angle
+                ));
+            }
+            verdict = lenient;
+        }
+    }
     if !arguments.quiet {
-        say(&verdict.to_string());
+        say(verdict.to_string().trim_end());
     }
     if verdict.is_ok() {
         Ok(())

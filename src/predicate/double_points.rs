@@ -192,7 +192,9 @@ impl PointStore for DoublePoints {
 
     #[inline]
     fn identity(&self, v: VertexId) -> u32 {
-        self.identities.as_ref().map_or(v.0, |identities| identities[v.index()])
+        self.identities
+            .as_ref()
+            .map_or(v.0, |identities| identities[v.index()])
     }
 
     /// # Panics
@@ -238,7 +240,11 @@ impl PointStore for DoublePoints {
         let det = formula::orient3d([&a, &b, &c, &d]);
         let [x, y, z] = largest_differences(&a, [&b, &c, &d]);
         if det.abs() > ORIENT3D_BOUND * (x * y * z) && in_static_range([x, y, z]) {
-            return if det > 0.0 { Sign::Positive } else { Sign::Negative };
+            return if det > 0.0 {
+                Sign::Positive
+            } else {
+                Sign::Negative
+            };
         }
         self.orient3d_filtered(v)
     }
@@ -252,7 +258,11 @@ impl PointStore for DoublePoints {
         let [x, y, z] = largest_differences(&e, [&a, &b, &c, &d]);
         let side = x.max(y).max(z);
         if det.abs() > INSPHERE_BOUND * (x * y * z) * (side * side) && in_static_range([x, y, z]) {
-            return if det > 0.0 { Sign::Positive } else { Sign::Negative };
+            return if det > 0.0 {
+                Sign::Positive
+            } else {
+                Sign::Negative
+            };
         }
         self.insphere_filtered(v)
     }

@@ -203,22 +203,26 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         }
     }
 
-    /// A segment that cannot be divided any more: if another segment meets it, that is why.
+    /// A segment that cannot be divided any more: if a vertex of the input lies on it or another segment meets it, that
+    /// is why. Linear time, on the way out.
     fn too_short(&self, segment: [VertexId; 2]) -> Failure {
+        let inputs = (0..self.subsegments.first_steiner).map(VertexId::new);
+        let mut in_mesh =
+            inputs.filter(|&v| self.incidence.tet_at(v).is_some() && !segment.contains(&v));
+        if let Some(vertex) = in_mesh.find(|&v| lies_between(self.points, segment, v)) {
+            return InvalidPlc::VertexOnSegment { segment, vertex }.into();
+        }
         let shares_end = |other: &[VertexId; 2]| other.iter().any(|v| segment.contains(v));
-        let others = self
+        let mut others = self
             .subsegments
             .ends
             .iter()
             .filter(|other| !shares_end(other));
-        let meeting = others
-            .copied()
-            .find(|&other| segments_meet(self.points, [segment, other]));
-        match meeting {
-            Some(other) => InvalidPlc::SegmentsMeet {
-                segments: [segment, other],
+        match others.find(|&&other| segments_meet(self.points, [segment, other])) {
+            Some(&other) => {
+                let segments = [segment, other];
+                InvalidPlc::SegmentsMeet { segments }.into()
             }
-            .into(),
             None => GaveUp::SegmentTooShort { segment }.into(),
         }
     }
@@ -297,6 +301,15 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
 fn edges_of(mesh: &TetMesh, t: TetId) -> [[VertexId; 2]; 6] {
     let [a, b, c, d] = mesh.vertices(t);
     [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]
+}
+
+/// Whether v lies in the interior of the segment ab. Exact.
+fn lies_between<P: PointStore>(points: &P, [a, b]: [VertexId; 2], v: VertexId) -> bool {
+    if !points.collinear([a, b, v]) {
+        return false;
+    }
+    let [a, b, v] = [a, b, v].map(|v| points.coordinates::<Dyadic>(v));
+    v.sub(&a).dot(&v.sub(&b)).exact_sign().is_negative()
 }
 
 /// Whether two segments without a common end have a common point. Exact.

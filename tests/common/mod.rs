@@ -3,6 +3,7 @@
 
 use tetflip::delaunay::{Delaunay, delaunay};
 use tetflip::mesh::{TetMesh, VertexId};
+use tetflip::plc::{Facet, Plc};
 use tetflip::predicate::{DoublePoints, PointStore};
 
 /// All vertex ids of a store.
@@ -52,4 +53,56 @@ pub fn delaunay_in_order(points: &DoublePoints, order: &[VertexId]) -> Delaunay 
         result.insert(points, *v);
     }
     result
+}
+
+/// No progress is reported.
+pub fn quiet(_done: usize) {}
+
+/// A PLC of points alone.
+pub fn plc_of_points(vertices: Vec<[f64; 3]>) -> Plc {
+    Plc {
+        vertices,
+        ..Plc::default()
+    }
+}
+
+/// A grid of n[0]×n[1]×n[2] boxes of the given side: the outer squares of every box, and of the inner ones those that
+/// `present` names, in turn.
+pub fn box_facets(plc: &mut Plc, n: [u32; 3], side: f64, present: &[bool]) {
+    let id = |p: [u32; 3]| VertexId((p[0] * (n[1] + 1) + p[1]) * (n[2] + 1) + p[2]);
+    for x in 0..=n[0] {
+        for y in 0..=n[1] {
+            for z in 0..=n[2] {
+                plc.vertices.push([x, y, z].map(|c| f64::from(c) * side));
+            }
+        }
+    }
+    let mut inner = present.iter().cycle();
+    for axis in 0..3 {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        for level in 0..=n[axis] {
+            for i in 0..n[u] {
+                for j in 0..n[v] {
+                    let outer = level == 0 || level == n[axis];
+                    if !outer && !inner.next().expect("a cycle") {
+                        continue;
+                    }
+                    let corner = |di: u32, dj: u32| {
+                        let mut p = [0; 3];
+                        (p[axis], p[u], p[v]) = (level, i + di, j + dj);
+                        id(p)
+                    };
+                    plc.facets.push(Facet {
+                        polygons: vec![vec![
+                            corner(0, 0),
+                            corner(1, 0),
+                            corner(1, 1),
+                            corner(0, 1),
+                        ]],
+                        ..Facet::default()
+                    });
+                }
+            }
+        }
+    }
 }

@@ -46,7 +46,11 @@ impl<T> FlipQueue<T> {
             if left >= self.heap.len() {
                 break;
             }
-            let earlier = if right < self.heap.len() && self.precedes(times, right, left) { right } else { left };
+            let earlier = if right < self.heap.len() && self.precedes(times, right, left) {
+                right
+            } else {
+                left
+            };
             self.heap.swap(hole, earlier);
             hole = earlier;
         }

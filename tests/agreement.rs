@@ -1,0 +1,249 @@
+//! Cavity insertion, exact flips in every number type, and every order of insertion end in the same tetrahedra, and the
+//! exact verifier accepts them.
+
+mod common;
+
+use common::{box_facets, plc_of_points, quiet};
+use proptest::prelude::*;
+use tetflip::cdt::{Options, tetrahedralize};
+use tetflip::error::{Failure, GaveUp};
+use tetflip::mesh::{ExportedMesh, VertexId};
+use tetflip::plc::{Facet, Plc};
+use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
+use tetflip::report::Report;
+use tetflip::verify::{Domain, VerifyOptions, verify};
+
+fn run(plc: &Plc, insertion: Insertion) -> Result<(ExportedMesh, PolygonCounts), Failure> {
+    let options = Options {
+        insertion,
+        keep_hull: true,
+        merge_coplanar: true,
+    };
+    let mut report = Report::default();
+    let mesh = tetrahedralize(plc, &options, &mut report, &mut quiet)?;
+    Ok((mesh, report.insertion_counts))
+}
+
+fn assert_verified(plc: &Plc, mesh: &ExportedMesh) {
+    let options = VerifyOptions {
+        domain: Domain::Hull,
+        ..VerifyOptions::default()
+    };
+    let verdict = verify(plc, mesh, options);
+    assert!(verdict.is_ok(), "{verdict}");
+}
+
+/// The exact algorithms on one PLC, whose polygons must all be flat with the Steiner points: equal meshes, or the same
+/// complaint about the input. Returns the mesh.
+fn agree(plc: &Plc) -> Option<ExportedMesh> {
+    let flips = run(plc, Insertion::Flip(Times::Exact));
+    let cavity = run(plc, Insertion::Cavity);
+    let (flips, cavity) = match (flips, cavity) {
+        (Ok(flips), Ok(cavity)) => (flips, cavity),
+        // Random input may be no PLC, or its polygons not flat once Steiner points are rounded.
+        (Err(Failure::GaveUp(GaveUp::FlipOrder { .. })), _) => {
+            panic!("exact order failed on a valid PLC")
+        }
+        (Err(a), Err(b)) => {
+            assert_eq!(
+                std::mem::discriminant(&a),
+                std::mem::discriminant(&b),
+                "{a}; {b}"
+            );
+            return None;
+        }
+        (a, b) => panic!(
+            "one algorithm failed: flips {:?}, cavity {:?}",
+            a.err(),
+            b.err()
+        ),
+    };
+    assert_eq!(flips.0, cavity.0);
+    assert_verified(plc, &flips.0);
+    #[cfg(feature = "rug")]
+    {
+        let rug = run(plc, Insertion::Flip(Times::Rug)).expect("as the other exact number type");
+        assert_eq!(rug.0, flips.0);
+        assert_eq!(
+            rug.1.flips, flips.1.flips,
+            "the same flips in the same order"
+        );
+    }
+    Some(flips.0)
+}
+
+/// Lattice points and one rectangle with corners on the lattice, in an axis plane or a tilted one.
+fn lattice_with_rectangle() -> impl Strategy<Value = Plc> {
+    let points = prop::collection::btree_set([-3i32..4, -3..4, -3..4], 3..30);
+    (points, 0usize..5, 1i32..4, 1i32..4).prop_map(|(points, kind, w, h)| {
+        // Corners ±u ± v.
+        let (u, v): ([i32; 3], [i32; 3]) = match kind {
+            0 => ([w, 0, 0], [0, h, 0]),
+            1 => ([w, 0, 0], [0, h, h]),
+            2 => ([w, w, 0], [0, 0, h]),
+            3 => ([w, w, 0], [h, -h, h]),
+            _ => ([2 * w, w, 0], [-1, 2, 1]),
+        };
+        let corner = |i: i32, j: i32| [0, 1, 2].map(|k: usize| i * u[k] + j * v[k]);
+        let corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+        let mut all: Vec<[i32; 3]> = corners.to_vec();
+        all.extend(points.into_iter().filter(|p| !corners.contains(p)));
+        let mut plc = plc_of_points(all.into_iter().map(|p| p.map(f64::from)).collect());
+        plc.facets.push(facet(&[0, 1, 2, 3]));
+        plc
+    })
+}
+
+/// Two rectangles in axis planes that cross in a common segment, split along it, among lattice points.
+fn crossing_planes() -> impl Strategy<Value = Plc> {
+    let points = prop::collection::btree_set([-3i32..4, -3..4, -3..4], 0..30);
+    (points, 1i32..4, 1i32..4, 1i32..4).prop_map(|(points, a, b, c)| {
+        let mut all: Vec<[i32; 3]> = vec![
+            [-a, 0, 0],
+            [a, 0, 0], // the common segment
+            [a, b, 0],
+            [-a, b, 0],
+            [a, -b, 0],
+            [-a, -b, 0], // z = 0
+            [a, 0, c],
+            [-a, 0, c],
+            [a, 0, -c],
+            [-a, 0, -c], // y = 0
+        ];
+        let on_a_plane = |p: &[i32; 3]| {
+            (p[2] == 0 && p[1].abs() <= b || p[1] == 0 && p[2].abs() <= c) && p[0].abs() <= a
+        };
+        all.extend(points.into_iter().filter(|p| !on_a_plane(p)));
+        let mut plc = plc_of_points(all.into_iter().map(|p| p.map(f64::from)).collect());
+        for quad in [[0, 1, 2, 3], [0, 1, 4, 5], [0, 1, 6, 7], [0, 1, 8, 9]] {
+            plc.facets.push(facet(&quad));
+        }
+        plc
+    })
+}
+
+/// A grid of boxes with walls between them, some walls left out, and points inside.
+fn walls() -> impl Strategy<Value = Plc> {
+    let points = prop::collection::btree_set([0i32..13, 0..9, 0..5], 0..25);
+    (points, prop::collection::vec(any::<bool>(), 36), -2i32..3).prop_map(|(points, present, e)| {
+        let scale = 2f64.powi(e * 100);
+        let mut plc = Plc::default();
+        box_facets(&mut plc, [3, 2, 1], 4.0 * scale, &present);
+        for p in points.into_iter().filter(|p| p.iter().all(|x| x % 4 != 0)) {
+            plc.vertices.push(p.map(|x| f64::from(x) * scale));
+        }
+        plc
+    })
+}
+
+/// Points on a sphere around the origin, all cospherical, and a square through the centre whose corners are among them.
+fn sphere() -> impl Strategy<Value = Plc> {
+    // All integer points with |p|² = 50 but those of the square in the plane z = 0.
+    let on_sphere = || {
+        let range = -7i32..8;
+        let all = range.clone().flat_map(move |x| {
+            range
+                .clone()
+                .flat_map(move |y| (-7..8).map(move |z| [x, y, z]))
+        });
+        all.filter(|p| p.iter().map(|x| x * x).sum::<i32>() == 50 && p[2] != 0)
+            .collect::<Vec<_>>()
+    };
+    let n = on_sphere().len();
+    prop::collection::vec(any::<bool>(), n).prop_map(move |chosen| {
+        let mut all = vec![[5, 5, 0], [-5, 5, 0], [-5, -5, 0], [5, -5, 0]];
+        all.extend(
+            on_sphere()
+                .into_iter()
+                .zip(&chosen)
+                .filter(|&(_, &c)| c)
+                .map(|(p, _)| p),
+        );
+        let mut plc = plc_of_points(
+            all.into_iter()
+                .map(|p: [i32; 3]| p.map(f64::from))
+                .collect(),
+        );
+        plc.facets.push(facet(&[0, 1, 2, 3]));
+        plc
+    })
+}
+
+fn facet(vertices: &[u32]) -> Facet {
+    Facet {
+        polygons: vec![vertices.iter().map(|&v| VertexId(v)).collect()],
+        ..Facet::default()
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn lattices_agree(plc in lattice_with_rectangle()) {
+        agree(&plc);
+    }
+
+    #[test]
+    fn crossing_planes_agree(plc in crossing_planes()) {
+        agree(&plc);
+    }
+
+    #[test]
+    fn walls_agree(plc in walls()) {
+        agree(&plc);
+    }
+
+    #[test]
+    fn spheres_agree(plc in sphere()) {
+        agree(&plc);
+    }
+
+    /// Polygons in another order give the same mesh.
+    #[test]
+    fn order_of_polygons_does_not_matter(plc in crossing_planes(), seed in 0usize..24) {
+        let (mut reordered, n) = (plc.clone(), plc.facets.len());
+        reordered.facets.swap(0, seed % n);
+        reordered.facets.swap(1, seed / n % n);
+        for insertion in [Insertion::Cavity, Insertion::Flip(Times::Exact)] {
+            let (Ok(a), Ok(b)) = (run(&plc, insertion), run(&reordered, insertion)) else { continue };
+            // Segments are numbered by first appearance, so Steiner points may differ; without them the meshes are equal.
+            if a.0.vertices.len() == plc.vertices.len() {
+                prop_assert_eq!(a.0.tets, b.0.tets);
+            }
+        }
+    }
+
+    /// Rounded times never panic, and what they end in is either the same mesh or a typed outcome.
+    #[test]
+    fn rounded_times_end_in_a_mesh_or_an_outcome(plc in lattice_with_rectangle()) {
+        let Some(exact) = agree(&plc) else { return Ok(()) };
+        for times in [Times::F32, Times::F64] {
+            match run(&plc, Insertion::Flip(times)) {
+                Ok((mesh, _)) => prop_assert_eq!(&mesh, &exact),
+                Err(Failure::GaveUp(GaveUp::Stuck { .. } | GaveUp::NotDelaunay { .. })) => {}
+                Err(other) => prop_assert!(false, "{}", other),
+            }
+        }
+    }
+}
+
+/// The smallest of the inputs on which the certification of a 4-4 flip's in-plane triangles was missing: seven lattice
+/// points and a triangle.
+#[test]
+fn four_four_flip_certifies_its_own_plane() {
+    let points = [
+        [3, 4, 4],
+        [2, 6, 6],
+        [2, 5, 3],
+        [6, 6, 4],
+        [1, 5, 5],
+        [2, 6, 4],
+        [2, 5, 4],
+    ];
+    let mut plc = plc_of_points(points.map(|p| p.map(f64::from)).to_vec());
+    plc.facets.push(facet(&[3, 4, 2]));
+    assert!(agree(&plc).is_some());
+    let (_, counts) = run(&plc, Insertion::Flip(Times::Exact)).expect("a valid PLC");
+    assert!(counts.flips.four_four > 0);
+}
