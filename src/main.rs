@@ -296,7 +296,8 @@ fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
         };
         let lenient = verify(&plc, &mesh, leniently);
         // Say which of the two readings of the input the verdict is about.
-        if lenient.is_ok() || lenient.totals.values().sum::<usize>() < verdict.totals.values().sum()
+        if lenient.is_ok()
+            || lenient.totals.values().sum::<usize>() < verdict.totals.values().sum::<usize>()
         {
             if !arguments.quiet {
                 say(&format!(

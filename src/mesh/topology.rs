@@ -161,7 +161,7 @@ impl TetMesh {
         let [a, b, c, d] = self.tets[t.index()].vertices;
         debug_assert!(a == v || b == v || c == v || d == v, "v is a vertex of t");
         // Without branches: this is asked in the innermost loops, and cannot be predicted.
-        t.corner(usize::from(b == v) | usize::from(c == v) << 1 | 3 * usize::from(d == v))
+        t.corner(usize::from(b == v) | (usize::from(c == v) << 1) | (3 * usize::from(d == v)))
     }
 
     /// Whether `t` has all of the given vertices.

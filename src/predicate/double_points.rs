@@ -278,8 +278,8 @@ const INSPHERE_BOUND: f64 = 1310.0 * f64::EPSILON;
 fn largest_differences<const N: usize>(origin: &Vec3<f64>, points: [&Vec3<f64>; N]) -> [f64; 3] {
     let mut largest = [0.0f64; 3];
     for p in points {
-        for i in 0..3 {
-            largest[i] = largest[i].max((p.0[i] - origin.0[i]).abs());
+        for (i, x) in largest.iter_mut().enumerate() {
+            *x = x.max((p.0[i] - origin.0[i]).abs());
         }
     }
     largest

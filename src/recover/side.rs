@@ -31,6 +31,7 @@ pub struct Sides<'a, P> {
     pub frame: [VertexId; 3],
     /// Whether all vertices of f lie exactly on h.
     pub flat: bool,
+    is_reversed: bool,
     vertices: FxHashSet<VertexId>,
     known: RefCell<FxHashMap<VertexId, Side>>,
 }
@@ -50,6 +51,7 @@ impl<'a, P: PointStore> Sides<'a, P> {
             flat: vertices
                 .iter()
                 .all(|&v| points.orient3d([a, b, c, v]).is_zero()),
+            is_reversed: false,
             vertices,
             known: RefCell::default(),
         }
@@ -62,6 +64,7 @@ impl<'a, P: PointStore> Sides<'a, P> {
             points: self.points,
             frame: [b, a, c],
             flat: self.flat,
+            is_reversed: !self.is_reversed,
             vertices: self.vertices.clone(),
             known: RefCell::default(),
         }
@@ -102,7 +105,10 @@ impl<'a, P: PointStore> Sides<'a, P> {
             match self.points.orient3d([a, b, c, v]) {
                 Sign::Positive => Side::Left,
                 Sign::Negative => Side::Right,
-                Sign::Zero => Side::Stray,
+                Sign::Zero if self.flat => Side::Stray,
+                // If f is flat only to rounding, then so is the plane of its frame right only to rounding.
+                Sign::Zero if self.is_reversed => Side::Right,
+                Sign::Zero => Side::Left,
             }
         })
     }

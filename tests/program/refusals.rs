@@ -1,0 +1,280 @@
+//! What the program refuses, with which exit status and message; nothing is written then.
+
+use crate::input::{CUBE, Point, ROOMS, off, poly, stl};
+use crate::place::Place;
+use std::fmt::Write;
+use std::process::Command;
+
+#[test]
+fn an_open_surface_needs_the_hull() {
+    let place = Place::with(&[("open.off", &off(5))]);
+    place.refuses(
+        "mesh open.off -o x.node",
+        1,
+        &["gave up", "open surface", "--hull"],
+    );
+    place
+        .run("mesh open.off -o x.node --hull --verify")
+        .ends_with(0);
+    place.run("verify open.off x.node").ends_with(0);
+}
+
+#[test]
+fn outputs_do_not_replace_inputs() {
+    let facets = poly(&[CUBE], &[]);
+    let nodes: Vec<&str> = facets.lines().take(9).collect();
+    let rest: Vec<&str> = facets.lines().skip(9).collect();
+    let place = Place::with(&[
+        ("cube.node", &nodes.join("\n")),
+        ("cube.poly", &format!("0 3 0 0\n{}", rest.join("\n"))),
+        ("box.poly", &facets),
+    ]);
+    let before = place.bytes("cube.node");
+    place.refuses("mesh cube.poly -o cube.ele", 2, &["cube.node is an input"]);
+    place.refuses(
+        "delaunay cube.node -o ./cube.node",
+        2,
+        &["cube.node is an input"],
+    );
+    place.refuses(
+        "mesh cube.poly --report cube.poly",
+        2,
+        &["cube.poly is an input"],
+    );
+    assert_eq!(place.bytes("cube.node"), before);
+    // This file has its own vertices, and a mesh may be written again.
+    place.run("mesh box.poly -o box.node").ends_with(0);
+    place.run("mesh box.poly -o box.node").ends_with(0);
+}
+
+#[test]
+fn bad_files_are_refused_by_line() {
+    let cube = poly(&[CUBE], &[]);
+    let lines: Vec<&str> = cube.lines().collect();
+    let place = Place::with(&[
+        ("cut.poly", &lines[..14].join("\n")),
+        ("nan.poly", &cube.replacen("3 0 1 0", "3 0 nan 0", 1)),
+        ("range.poly", &cube.replacen("4 1 3 4 2", "4 1 3 99 2", 1)),
+        ("word.off", &off(6).replacen("1 1 0", "1 l 0", 1)),
+        ("cut.stl", &stl()[..300]),
+        ("empty.node", ""),
+        ("cube.obj", "v 0 0 0\n"),
+    ]);
+    for command in ["mesh", "delaunay"] {
+        let to = "-o x.node";
+        place.refuses(
+            &format!("{command} none.poly {to}"),
+            2,
+            &["none.poly", "cannot read"],
+        );
+        place.refuses(
+            &format!("{command} cube.obj {to}"),
+            2,
+            &["cube.obj", "\"obj\"", ".poly"],
+        );
+        place.refuses(
+            &format!("{command} cut.poly {to}"),
+            2,
+            &["cut.poly", "line 14"],
+        );
+        place.refuses(&format!("{command} nan.poly {to}"), 2, &["line 4", "nan"]);
+        place.refuses(
+            &format!("{command} range.poly {to}"),
+            2,
+            &["line 12", "no vertex 99"],
+        );
+        place.refuses(&format!("{command} word.off {to}"), 2, &["line 6", "\"l\""]);
+        place.refuses(&format!("{command} cut.stl {to}"), 2, &["cut.stl", "line "]);
+        place.refuses(
+            &format!("{command} empty.node {to}"),
+            2,
+            &["empty.node", "the file ends"],
+        );
+    }
+    place.refuses("verify none.poly cut.node", 2, &["none.poly"]);
+}
+
+#[test]
+fn bad_mesh_files_are_refused_by_line() {
+    let place = Place::with(&[("a.poly", &poly(&[CUBE], &[]))]);
+    place.refuses("verify a.poly x.node", 2, &["x.node"]);
+    place.run("mesh a.poly -o x.node").ends_with(0);
+    let ele = String::from_utf8(place.bytes("x.ele")).expect("UTF-8");
+    let (header, first) = (ele.lines().next(), ele.lines().nth(1));
+    let (header, first) = (header.expect("a header"), first.expect("a tetrahedron"));
+    std::fs::write(place.path("x.ele"), ele.replacen(first, "1 1 2 3 9", 1)).expect("a file");
+    place.refuses(
+        "verify a.poly x.node",
+        2,
+        &["x.ele:2", "vertex 9 does not exist"],
+    );
+    std::fs::write(place.path("x.ele"), format!("{header}\n")).expect("a file");
+    place.refuses("verify a.poly x.node", 2, &["x.ele", "the file ends"]);
+}
+
+#[test]
+fn vertices_that_do_not_span_space_are_refused() {
+    let flat = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    let line = "4 3 0 0\n0 0 0 0\n1 1 1 1\n2 2 2 2\n3 3 3 3\n";
+    let few = "4 3 0 0\n0 0 0 0\n1 1 1 1\n2 0 1 0\n3 0 0 0\n";
+    let place = Place::with(&[("flat.off", flat), ("line.node", line), ("few.node", few)]);
+    for command in ["mesh", "mesh --hull", "delaunay"] {
+        place.refuses(
+            &format!("{command} flat.off -o x.node"),
+            2,
+            &["4 vertices lie on one plane"],
+        );
+        place.refuses(
+            &format!("{command} line.node -o x.node"),
+            2,
+            &["4 vertices lie on one line"],
+        );
+        place.refuses(
+            &format!("{command} few.node -o x.node"),
+            2,
+            &["3 distinct vertices"],
+        );
+    }
+}
+
+#[test]
+fn intersections_are_refused_by_name() {
+    // A bar through the face x = 1 of the cube, whose corners are 2 4 8 6.
+    let bar = [[0.5, 0.25, 0.25], [1.5, 0.75, 0.75]];
+    // A bowtie, two wires that cross, a vertex in a face that does not have it, one on an edge.
+    let bowtie = off(6).replacen("4 0 2 3 1", "4 0 3 2 1", 1);
+    let wires = "4 3 0 0\n1 0 0 0\n2 2 2 0\n3 2 0 0\n4 0 2 0\n2 0\n1\n2 1 2\n1\n2 3 4\n0\n";
+    let wires =
+        wires
+            .replacen("4 3 0 0", "5 3 0 0", 1)
+            .replacen("4 0 2 0\n", "4 0 2 0\n5 0 0 1\n", 1);
+    let touch = [[1.0, 0.25, 0.25], [1.5, 0.75, 0.75]];
+    let on_edge = [[1.0, 0.0, 0.5], [2.0, 1.0, 0.75]];
+    let place = Place::with(&[
+        ("bar.poly", &poly(&[CUBE, bar], &[])),
+        ("bowtie.off", &bowtie),
+        ("wires.poly", &wires),
+        ("touch.poly", &poly(&[CUBE, touch], &[])),
+        ("edge.poly", &poly(&[CUBE, on_edge], &[])),
+        ("twice.poly", &poly(&[CUBE, CUBE], &[])),
+    ]);
+    for way in ["cavity", "flip"] {
+        let mesh = |file: &str| format!("mesh {file} --insert {way} -o x.node --hull");
+        place.refuses(&mesh("bar.poly"), 2, &["invalid PLC", "facet 6 (2 4 8 6)"]);
+        place.refuses(
+            &mesh("bowtie.off"),
+            2,
+            &["edges", "facet 0 (0 3 2 1)", "cross"],
+        );
+        place.refuses(
+            &mesh("wires.poly"),
+            2,
+            &["segments", "1-2", "3-4", "intersect"],
+        );
+        place.refuses(&mesh("touch.poly"), 2, &["interior of facet 6 (2 4 8 6)"]);
+        place.refuses(&mesh("edge.poly"), 2, &["lies in the interior of segment"]);
+        place.refuses(
+            &mesh("twice.poly"),
+            2,
+            &["facet 1 (1 3 4 2)", "facet 7", "the same"],
+        );
+    }
+}
+
+/// After a rotation facets are flat only to rounding. That may be too hard, but it is no intersection, and vertex 1, on
+/// the line of the edge 2-3, must not be found inside the facet of that edge.
+#[test]
+fn a_rotated_box_is_not_called_invalid() {
+    let (cos, sin) = (0.955336489125606, 0.29552020666133955);
+    let rotate = |[x, y, z]: Point| {
+        let (x, y) = (cos * x - sin * y, sin * x + cos * y);
+        [x, cos * y - sin * z, sin * y + cos * z]
+    };
+    let mut text = String::new();
+    for line in ROOMS.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        // Vertices, the hole and the regions have their point after a number; the lines of facets begin with 1 0 or 4.
+        let point = |i: usize| words[i].parse::<f64>().expect("a coordinate");
+        if line.starts_with('#')
+            || words.len() < 4
+            || line.starts_with("1 0 ")
+            || words[0] == "4" && words.len() == 5
+            || line == "20 3 0 0"
+        {
+            writeln!(text, "{line}").expect("a string");
+        } else {
+            let [x, y, z] = rotate([point(1), point(2), point(3)]);
+            let rest = words[4..].join(" ");
+            writeln!(text, "{} {x} {y} {z} {rest}", words[0]).expect("a string");
+        }
+    }
+    let place = Place::with(&[("rotated.poly", &text)]);
+    for way in ["cavity", "flip"] {
+        let run = place.run(&format!("mesh rotated.poly --insert {way} --verify"));
+        if run.output.status.code() != Some(0) {
+            let run = run.ends_with(1);
+            assert!(
+                run.stderr().contains("not exactly flat"),
+                "{}",
+                run.stderr()
+            );
+        }
+    }
+}
+
+#[test]
+fn bad_usage_ends_with_2() {
+    let place = Place::with(&[("a.poly", &poly(&[CUBE], &[]))]);
+    place.refuses("mesh a.poly -o x.txt", 2, &["x.txt", ".node", ".vtu"]);
+    place.refuses("mesh a.poly -o none/x.node", 2, &["none"]);
+    place.refuses("mesh a.poly --report none/r.json", 2, &["none"]);
+    #[cfg(not(feature = "rug"))]
+    place.refuses("mesh a.poly --times rug -o x.node", 2, &["--features rug"]);
+    for arguments in [
+        "",
+        "mesh",
+        "frobnicate a.poly",
+        "mesh a.poly --insert magic",
+        "verify a.poly",
+        "verify a.poly x.node --tolerance nan",
+        "verify a.poly x.node --merge-angle 720",
+    ] {
+        let run = place.run(arguments).ends_with(2);
+        assert!(run.stderr().contains("--help"), "{}", run.stderr());
+    }
+    assert_eq!(place.names(), ["a.poly"]);
+    place.run("--help").ends_with(0);
+    assert!(
+        place
+            .run("--version")
+            .ends_with(0)
+            .stdout()
+            .starts_with("tetflip ")
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn closed_pipes_do_not_change_the_exit_status() {
+    let place = Place::with(&[("a.poly", &poly(&[CUBE], &[])), ("open.off", &off(5))]);
+    for (arguments, status) in [
+        ("mesh a.poly", 0),
+        ("mesh open.off", 1),
+        ("mesh none.off", 2),
+    ] {
+        // A pipe that nobody reads.
+        let closed = || {
+            let (reader, writer) = std::io::pipe().expect("a pipe");
+            drop(reader);
+            writer
+        };
+        let ended = Command::new(env!("CARGO_BIN_EXE_tetflip"))
+            .args(arguments.split_whitespace())
+            .current_dir(place.directory.path())
+            .stdout(closed())
+            .stderr(closed())
+            .status()
+            .expect("the program starts");
+        assert_eq!(ended.code(), Some(status), "{arguments}");
+    }
+}
