@@ -144,7 +144,7 @@ impl<P: PointStore> Cdt<P> {
                 &self.mesh,
                 &self.subpolygons,
                 keep_hull,
-            );
+            )?;
             let mut tets: Vec<([VertexId; 4], TetId)> = self
                 .mesh
                 .finite()

@@ -69,6 +69,9 @@ impl Failure {
                         facets(f)
                     )
                 }
+                InvalidPlc::PointOnPolygon { .. } | InvalidPlc::RegionsDisagree { .. } => {
+                    self.to_string()
+                }
                 InvalidPlc::PolygonsIntersect { first, second } => {
                     format!(
                         "invalid PLC: {} intersects {}",
@@ -152,6 +155,20 @@ pub enum InvalidPlc {
         facets: Vec<usize>,
         /// The ends of the segment.
         segment: [VertexId; 2],
+    },
+    /// A hole point or region point lies on a facet.
+    #[error("{kind} point {index} lies on a facet")]
+    PointOnPolygon {
+        /// "hole" or "region".
+        kind: &'static str,
+        /// Its index in its list, from 0.
+        index: usize,
+    },
+    /// Two region points lie in one region and give it different attributes.
+    #[error("region points {} and {} give different attributes to one region", points[0], points[1])]
+    RegionsDisagree {
+        /// Their indices, from 0.
+        points: [usize; 2],
     },
     /// Two polygons that intersect.
     #[error("the polygons made of facets {first:?} and of facets {second:?} intersect")]

@@ -13,6 +13,7 @@ impl Method {
         let times = [
             Times::F32,
             Times::F64,
+            Times::Filtered,
             Times::Exact,
             #[cfg(feature = "rug")]
             Times::Rug,
@@ -38,6 +39,7 @@ impl Method {
             Insertion::Cavity => "",
             Insertion::Flip(Times::F32) => "f32",
             Insertion::Flip(Times::F64) => "f64",
+            Insertion::Flip(Times::Filtered) => "filtered",
             Insertion::Flip(Times::Exact) => "exact",
             #[cfg(feature = "rug")]
             Insertion::Flip(Times::Rug) => "rug",
@@ -65,15 +67,16 @@ mod tests {
     #[test]
     fn names_differ() {
         let names: Vec<String> = Method::all().iter().map(Method::to_string).collect();
-        assert_eq!(names[..4], ["cavity", "flip f32", "flip f64", "flip exact"]);
-        assert_eq!(names.len(), if cfg!(feature = "rug") { 5 } else { 4 });
+        assert_eq!(names[..3], ["cavity", "flip f32", "flip f64"]);
+        assert_eq!(names[3..5], ["flip filtered", "flip exact"]);
+        assert_eq!(names.len(), if cfg!(feature = "rug") { 6 } else { 5 });
     }
 
     #[test]
     fn only_rounded_times_may_fail() {
         let safe = Method::all().into_iter().filter(|m| m.always_succeeds());
         let times: Vec<&str> = safe.map(Method::times).collect();
-        assert_eq!(times[..2], ["", "exact"]);
-        assert!(!times.iter().any(|t| t.starts_with('f')));
+        assert_eq!(times[..3], ["", "filtered", "exact"]);
+        assert!(!times.iter().any(|t| ["f32", "f64"].contains(t)));
     }
 }

@@ -5,6 +5,7 @@
 
 use super::cavity::face;
 use super::polygons::Subpolygons;
+use crate::error::InvalidPlc;
 use crate::mesh::{Incidence, TetId, TetMesh};
 use crate::plc::Plc;
 use crate::predicate::PointStore;
@@ -19,13 +20,16 @@ pub struct DomainMarks {
 }
 
 /// Divides the mesh. With `keep_hull` everything in the convex hull is kept. Linear time.
+///
+/// # Errors
+/// If a hole point or region point lies on a facet, or two region points disagree on one region.
 pub fn mark_domain<P: PointStore>(
     plc: &Plc,
     points: &mut P,
     mesh: &TetMesh,
     subpolygons: &Subpolygons,
     keep_hull: bool,
-) -> DomainMarks {
+) -> Result<DomainMarks, InvalidPlc> {
     let mut flood = Flood {
         mesh,
         subpolygons,
@@ -41,22 +45,33 @@ pub fn mark_domain<P: PointStore>(
         }
     }
     let component = flood.component;
-    if !keep_hull {
-        for &hole in &plc.holes {
-            if let Some(t) = locate(points, mesh, hole) {
-                kept_component[component[t.index()] as usize] = false;
+    let mut find = |kind, index, point| {
+        locate(points, mesh, subpolygons, point)
+            .map_err(|OnPolygon| InvalidPlc::PointOnPolygon { kind, index })
+    };
+    let holes: &[[f64; 3]] = if keep_hull { &[] } else { &plc.holes };
+    for (index, &hole) in holes.iter().enumerate() {
+        if let Some(t) = find("hole", index, hole)? {
+            kept_component[component[t.index()] as usize] = false;
+        }
+    }
+    let mut named_by: Vec<Option<usize>> = vec![None; kept_component.len()];
+    for (index, region) in plc.regions.iter().enumerate() {
+        if let Some(t) = find("region", index, region.point)? {
+            let first = *named_by[component[t.index()] as usize].get_or_insert(index);
+            if plc.regions[first].attribute != region.attribute {
+                let points = [first, index];
+                return Err(InvalidPlc::RegionsDisagree { points });
             }
         }
     }
-    let mut attribute = vec![None; kept_component.len()];
-    for region in &plc.regions {
-        if let Some(t) = locate(points, mesh, region.point) {
-            attribute[component[t.index()] as usize].get_or_insert(region.attribute);
-        }
-    }
+    let attribute: Vec<Option<f64>> = named_by
+        .into_iter()
+        .map(|index| Some(plc.regions[index?].attribute))
+        .collect();
     let of = |t: usize| component[t] as usize;
     let alive = |t: usize| component[t] != u32::MAX;
-    DomainMarks {
+    Ok(DomainMarks {
         kept: (0..component.len())
             .map(|t| alive(t) && kept_component[of(t)] && !mesh.is_ghost(TetId::new(t)))
             .collect(),
@@ -73,7 +88,7 @@ pub fn mark_domain<P: PointStore>(
                 })
                 .collect()
         },
-    }
+    })
 }
 
 struct Flood<'a> {
@@ -102,19 +117,28 @@ impl Flood<'_> {
     }
 }
 
+/// The point lies on a polygon, so it names no part of space.
+struct OnPolygon;
+
 /// A finite tetrahedron that contains the point, if it is in the convex hull. A walk, which need not end in a
 /// constrained tetrahedralization, then a search of all tetrahedra.
-fn locate<P: PointStore>(points: &mut P, mesh: &TetMesh, point: [f64; 3]) -> Option<TetId> {
+fn locate<P: PointStore>(
+    points: &mut P,
+    mesh: &TetMesh,
+    subpolygons: &Subpolygons,
+    point: [f64; 3],
+) -> Result<Option<TetId>, OnPolygon> {
     let n = points.len();
     let p = points.push(point);
-    let outward = |t: TetId| {
+    let sides = |t: TetId| {
         let v = mesh.vertices(t);
-        (0..4).find(|&slot| {
+        [0, 1, 2, 3].map(|slot: usize| {
             let mut moved = v;
             moved[slot] = p;
-            points.orient3d(moved).is_negative()
+            points.orient3d(moved)
         })
     };
+    let outward = |t: TetId| sides(t).iter().position(|s| s.is_negative());
     let mut found = None;
     let mut at = mesh.finite().next();
     for _ in 0..1000 {
@@ -128,8 +152,18 @@ fn locate<P: PointStore>(points: &mut P, mesh: &TetMesh, point: [f64; 3]) -> Opt
         }
     }
     let found = found.or_else(|| mesh.finite().find(|&t| outward(t).is_none()));
+    let on_polygon = found.is_some_and(|t| {
+        let on_facet = sides(t).map(|s| s.is_zero());
+        (0..4).any(|slot| {
+            on_facet[slot] && subpolygons.contains_key(&face(mesh.facet(t.corner(slot))))
+        })
+    });
     points.truncate(n);
-    found
+    if on_polygon {
+        Err(OnPolygon)
+    } else {
+        Ok(found)
+    }
 }
 
 /// Whether the edge ab is an edge of a kept tetrahedron.

@@ -83,8 +83,8 @@ impl<T> FlipQueue<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use super::super::time::Undecided;
+    use super::*;
     use crate::mesh::{TetId, VertexId};
 
     /// Times that are plain integers.
