@@ -59,6 +59,13 @@ fn agree(plc: &Plc) -> Option<ExportedMesh> {
         ),
     };
     assert_eq!(flips.0, cavity.0);
+    let filtered = run(plc, Insertion::Flip(Times::Filtered)).expect("as with exact times");
+    assert_eq!(filtered.0, flips.0);
+    assert_eq!(
+        filtered.1.flips.flips(),
+        flips.1.flips.flips(),
+        "the same flips in the same order"
+    );
     assert_verified(plc, &flips.0);
     #[cfg(feature = "rug")]
     {

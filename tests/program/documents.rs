@@ -23,7 +23,10 @@ fn the_report_has_the_documented_fields() {
     let report: serde_json::Value = serde_json::from_slice(&place.bytes("r.json")).expect("JSON");
     assert_eq!(report["input"], "rooms.poly");
     assert_eq!(report["outcome"], "ok");
-    assert_eq!(report["insertion"], serde_json::json!({ "flip": "exact" }));
+    assert_eq!(
+        report["insertion"],
+        serde_json::json!({ "flip": "filtered" })
+    );
     assert_eq!(
         (&report["input_vertices"], &report["segments"]),
         (&20.into(), &32.into())
