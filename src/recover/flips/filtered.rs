@@ -180,7 +180,7 @@ mod tests {
         #[test]
         fn enclosures_hold_and_orders_agree(p in family()) {
             let points = DoublePoints::new(p);
-            let is_left = |v: VertexId| v.0 % 2 == 0;
+            let is_left = |v: VertexId| v.0.is_multiple_of(2);
             let frame = [5, 6, 7].map(VertexId);
             let mut filtered = FilteredTimes::new(&points, frame, &is_left);
             let mut exact = ExactTimes::<_, Dyadic>::new(&points, frame, &is_left);
