@@ -13,8 +13,8 @@ impl Method {
         let times = [
             Times::F32,
             Times::F64,
-            Times::Filtered,
             Times::Exact,
+            Times::Filtered,
             #[cfg(feature = "rug")]
             Times::Rug,
         ];
@@ -68,7 +68,7 @@ mod tests {
     fn names_differ() {
         let names: Vec<String> = Method::all().iter().map(Method::to_string).collect();
         assert_eq!(names[..3], ["cavity", "flip f32", "flip f64"]);
-        assert_eq!(names[3..5], ["flip filtered", "flip exact"]);
+        assert_eq!(names[3..5], ["flip exact", "flip filtered"]);
         assert_eq!(names.len(), if cfg!(feature = "rug") { 6 } else { 5 });
     }
 
@@ -76,7 +76,7 @@ mod tests {
     fn only_rounded_times_may_fail() {
         let safe = Method::all().into_iter().filter(|m| m.always_succeeds());
         let times: Vec<&str> = safe.map(Method::times).collect();
-        assert_eq!(times[..3], ["", "filtered", "exact"]);
+        assert_eq!(times[..3], ["", "exact", "filtered"]);
         assert!(!times.iter().any(|t| ["f32", "f64"].contains(t)));
     }
 }

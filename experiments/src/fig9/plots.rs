@@ -13,7 +13,7 @@ pub struct Figure {
     pub crossing: RangeInclusive<u64>,
     /// Its axes.
     pub scale: Scale,
-    /// Whether it shows flips with exact times. The paper had none, and beside them the others look alike.
+    /// Whether it shows flips whose times are exact numbers throughout. Beside them the others look alike.
     pub exact: bool,
 }
 
@@ -50,7 +50,7 @@ impl Figure {
     /// # Errors
     /// If there are none.
     pub fn svg(&self, rows: &[Row], methods: &[Method]) -> Result<String, PlotError> {
-        let has_exact_times = |m: Method| m.insertion() == "flip" && m.always_succeeds();
+        let has_exact_times = |m: Method| ["exact", "rug"].contains(&m.times());
         let shown = methods
             .iter()
             .filter(|&&m| self.exact || !has_exact_times(m));
