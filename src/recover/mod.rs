@@ -4,6 +4,7 @@
 pub mod cavity;
 pub mod domain;
 pub mod flips;
+pub mod method;
 pub mod missing;
 pub mod polygons;
 pub mod region;
