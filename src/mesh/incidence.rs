@@ -1,6 +1,7 @@
 //! One tetrahedron at each vertex, so that the star of a vertex is found without a search.
 
 use super::{TetId, TetMesh, VertexId};
+use rustc_hash::FxHashSet;
 
 /// For each vertex a finite tetrahedron that has it, as long as the mesh's changes are reported by
 /// [`Incidence::update`].
@@ -44,31 +45,59 @@ impl Incidence {
         self.tet_at.get(v.index()).copied().flatten()
     }
 
-    /// A tetrahedron with the edge ab, by a search of the star of a.
+    /// A tetrahedron with the edge ab, by a search of both stars in turn: time linear in the size of the smaller one, as
+    /// one of the ends may be the hub of very many edges.
     pub fn tet_at_edge(&self, mesh: &TetMesh, a: VertexId, b: VertexId) -> Option<TetId> {
-        self.star(mesh, a)
-            .into_iter()
-            .find(|&t| mesh.slot_of(t, b).is_some())
+        let mut stars = (self.walk(mesh, a), self.walk(mesh, b));
+        loop {
+            for (star, other) in [(&mut stars.0, b), (&mut stars.1, a)] {
+                let t = star.next()?;
+                if mesh.slot_of(t, other).is_some() {
+                    return Some(t);
+                }
+            }
+        }
     }
 
     /// All tetrahedra at `v`, ghosts included. Time linear in their number.
     pub fn star(&self, mesh: &TetMesh, v: VertexId) -> Vec<TetId> {
-        let Some(first) = self.tet_at(v) else {
-            return Vec::new();
-        };
-        let mut star = vec![first];
-        let mut seen = rustc_hash::FxHashSet::default();
-        seen.insert(first);
-        let mut next = 0;
-        while let Some(&t) = star.get(next) {
-            next += 1;
-            for slot in (0..4).filter(|&slot| mesh.vertices(t)[slot] != v) {
-                let n = mesh.neighbor(t.corner(slot));
-                if seen.insert(n) {
-                    star.push(n);
-                }
+        self.walk(mesh, v).collect()
+    }
+
+    fn walk<'a>(&self, mesh: &'a TetMesh, v: VertexId) -> StarWalk<'a> {
+        let found: Vec<TetId> = self.tet_at(v).into_iter().collect();
+        StarWalk {
+            mesh,
+            v,
+            seen: found.iter().copied().collect(),
+            found,
+            next: 0,
+        }
+    }
+}
+
+/// The tetrahedra at `v`, breadth first.
+struct StarWalk<'a> {
+    mesh: &'a TetMesh,
+    v: VertexId,
+    found: Vec<TetId>,
+    seen: FxHashSet<TetId>,
+    next: usize,
+}
+
+impl Iterator for StarWalk<'_> {
+    type Item = TetId;
+
+    fn next(&mut self) -> Option<TetId> {
+        let &t = self.found.get(self.next)?;
+        self.next += 1;
+        let vertices = self.mesh.vertices(t);
+        for slot in (0..4).filter(|&slot| vertices[slot] != self.v) {
+            let n = self.mesh.neighbor(t.corner(slot));
+            if self.seen.insert(n) {
+                self.found.push(n);
             }
         }
-        star
+        Some(t)
     }
 }

@@ -96,9 +96,10 @@ fn inward<P: PointStore>(
     let n = link.len();
     let side = |i: usize| link[i % n].2;
     let vertex = |i: usize| link[i % n].1;
-    // A face that has vertices of f alone is on the side of f if it turns left from ab in projection. If f is flat the
-    // order of the sides says the same.
-    let on_f = |i: usize| side(i) == Side::On && (sides.flat || sides.turns_left(a, b, vertex(i)));
+    // A face with vertices on h alone is on the side of f if it turns left from ab in projection. If f is flat the order
+    // of the sides says the same.
+    let on_left = |i: usize| sides.flat || sides.turns_left(a, b, vertex(i));
+    let on_f = |i: usize| side(i) == Side::On && on_left(i);
     let result = |i: usize| Inward::Face(mesh.corner_of(link[i % n].0, vertex(i + 1)), vertex(i));
     if let Some(i) =
         (0..n).find(|&i| on_f(i) && !sides.flat && is_subpolygon(face([a, b, vertex(i)])))
@@ -110,7 +111,7 @@ fn inward<P: PointStore>(
     }
     // Runs of vertices on h, as ranges of `link`. A flat f follows a right vertex and precedes a left one, and on the far
     // side it is the other way round. A vertex that is on the wrong side because f is not flat spoils one of the two.
-    let on = |i: usize| side(i) == Side::Stray || on_f(i);
+    let on = |i: usize| on_f(i) || (side(i) == Side::Stray && on_left(i));
     let rank = |side, near: Side, far: Side| i32::from(side == near) - i32::from(side == far);
     let runs = (0..n).filter(|&i| on(i) && !on(i + n - 1)).map(|first| {
         let last = (first..first + n)
@@ -122,12 +123,14 @@ fn inward<P: PointStore>(
     });
     let best = runs.filter(|run| run.0 >= 0).max_by_key(|run| run.0);
     let (_, first, last) = best.ok_or(Obstacle::Nothing([a, b]))?;
-    if let Some(i) = (first..=last).find(|&i| side(i) == Side::Stray) {
-        return Err(Obstacle::Stray(vertex(i)));
-    }
-    Ok(result(if side(last + 1) == Side::Left {
-        last
+    // Vertices of f first: if f is not flat, a shim may also have a stray vertex beyond another edge of f.
+    let run = first..=last;
+    let chosen = if side(last + 1) == Side::Left {
+        run.rev().find(|&i| on_f(i))
     } else {
-        first
-    }))
+        run.into_iter().find(|&i| on_f(i))
+    };
+    chosen
+        .map(result)
+        .ok_or_else(|| Obstacle::Stray(vertex(first)))
 }

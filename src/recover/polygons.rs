@@ -131,8 +131,9 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         let is_subpolygon = |t: Face| self.subpolygons.get(&t) == Some(&(f as u32));
         missing::search(self.mesh, self.incidence, sides, boundary, &is_subpolygon).map_err(
             |obstacle| match obstacle {
+                // Otherwise the vertex may be beyond an edge of f with Steiner points that are off the plane.
                 Obstacle::Stray(vertex)
-                    if self.subsegments.segment_of_steiner(vertex).is_none() =>
+                    if sides.flat && self.subsegments.segment_of_steiner(vertex).is_none() =>
                 {
                     let facets = self.complex.polygons[f].facets.clone();
                     InvalidPlc::VertexOnPolygon { facets, vertex }.into()

@@ -38,7 +38,8 @@ impl Region {
         self.tets.binary_search(&t).is_ok()
     }
 
-    /// The crossing triangles, each once.
+    /// The crossing triangles between two tetrahedra of R, each once. (If f is flat all of them are; one that is not may
+    /// cut through a facet of the convex hull.)
     pub fn crossing_triangles<P: PointStore>(
         &self,
         mesh: &TetMesh,
@@ -49,7 +50,8 @@ impl Region {
             .iter()
             .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
         corners
-            .filter(|&c| c < mesh.twin(c) && sides.crosses(&mesh.facet(c)))
+            .filter(|&c| c < mesh.twin(c) && !mesh.is_ghost(mesh.neighbor(c)))
+            .filter(|&c| sides.crosses(&mesh.facet(c)))
             .collect()
     }
 

@@ -29,8 +29,8 @@ pub struct Subsegments {
     of: FxHashMap<[VertexId; 2], u32>,
     /// For each segment its vertices from end to end, with their parameters.
     chains: Vec<Vec<(f64, VertexId)>>,
-    /// For each Steiner point, the segment it lies on; indexed from `first_steiner`.
-    steiner: Vec<u32>,
+    /// For each Steiner point, the segment it lies on and its parameter there; indexed from `first_steiner`.
+    steiner: Vec<(u32, f64)>,
     first_steiner: usize,
     ends: Vec<[VertexId; 2]>,
 }
@@ -62,7 +62,7 @@ impl Subsegments {
     /// The segment that a Steiner point lies on; `None` for vertices of the input.
     pub fn segment_of_steiner(&self, v: VertexId) -> Option<u32> {
         let i = v.index().checked_sub(self.first_steiner)?;
-        self.steiner.get(i).copied()
+        self.steiner.get(i).map(|&(s, _)| s)
     }
 
     /// The vertices of segment `s` from its first end to its second.
@@ -86,14 +86,22 @@ impl Subsegments {
         self.steiner.len()
     }
 
-    /// The range of parameters of the subsegment ab of segment s.
+    /// Where the subsegment ab is in the chain of segment s, and its range of parameters. Logarithmic time.
     fn range(&self, s: u32, a: VertexId, b: VertexId) -> (usize, [f64; 2]) {
         let chain = &self.chains[s as usize];
-        let i = chain
-            .windows(2)
-            .position(|w| (w[0].1 == a && w[1].1 == b) || (w[0].1 == b && w[1].1 == a))
-            .expect("a subsegment is in the chain of its segment");
+        let start = self.parameter(s, a).min(self.parameter(s, b));
+        let i = chain.partition_point(|&(t, _)| t < start);
+        debug_assert_eq!(key(chain[i].1, chain[i + 1].1), key(a, b));
         (i, [chain[i].0, chain[i + 1].0])
+    }
+
+    /// The parameter of a vertex of segment s.
+    fn parameter(&self, s: u32, v: VertexId) -> f64 {
+        match v.index().checked_sub(self.first_steiner) {
+            Some(i) => self.steiner[i].1,
+            None if v == self.ends[s as usize][0] => 0.0,
+            None => 1.0,
+        }
     }
 
     fn split(&mut self, s: u32, at: usize, t: f64, v: VertexId) -> [[VertexId; 2]; 2] {
@@ -104,7 +112,7 @@ impl Subsegments {
         self.of.insert(key(a, v), s);
         self.of.insert(key(v, b), s);
         debug_assert_eq!(v.index(), self.first_steiner + self.steiner.len());
-        self.steiner.push(s);
+        self.steiner.push((s, t));
         [[a, v], [v, b]]
     }
 }

@@ -25,6 +25,9 @@ use crate::predicate::formula;
 /// u = 2⁻⁵³.
 const HALF_ULP: f64 = f64::EPSILON / 2.0;
 
+/// Squares of lengths for which the distances below neither overflow nor lose anything that counts to underflow.
+const SQUARES: std::ops::Range<f64> = 1e-90..1e90;
+
 /// The points: first the vertices of the mesh, then those points of the input (vertices, hole and region points) that
 /// are no mesh vertices. A [`VertexId`] in this module names any of them.
 pub(super) struct Points {
@@ -198,7 +201,11 @@ impl Points {
         let (along, away) = (minus(pb, pa), minus(pv, pa));
         let moment = cross(along, away);
         let rounding = 64.0 * f64::EPSILON * self.largest;
-        if dot(moment, moment).sqrt() > 2.0 * (tolerance + rounding) * dot(along, along).sqrt() {
+        let (moment, length) = (dot(moment, moment), dot(along, along));
+        if SQUARES.contains(&length)
+            && moment < f64::INFINITY
+            && moment.sqrt() > 2.0 * (tolerance + rounding) * length.sqrt()
+        {
             return false;
         }
         let [a, b, v] = [a, b, v].map(|p| self.exact(p));
@@ -209,9 +216,18 @@ impl Points {
 
     /// Whether v is within `tolerance` of the plane abc: det² ≤ tolerance²·|normal|², exactly.
     pub(super) fn near_plane(&self, [a, b, c]: [VertexId; 3], v: VertexId, tolerance: f64) -> bool {
-        let distance = self.distance_to_plane([a, b, c], v);
-        if distance > 2.0 * tolerance + 64.0 * f64::EPSILON * self.largest {
-            return false;
+        // Far away beyond all doubt. The rounded normal of a needle may be mostly error, so this says how much.
+        let (pa, pb, pc, pv) = (self.at(a), self.at(b), self.at(c), self.at(v));
+        let [p, q, r] = [pb, pc, pv].map(|x| minus(x, pa));
+        let squares = [p, q, r].map(|x| dot(x, x));
+        if squares.iter().all(|x| SQUARES.contains(x)) {
+            let [p_length, q_length, r_length] = squares.map(f64::sqrt);
+            let normal = cross(p, q);
+            let error = 32.0 * f64::EPSILON * p_length * q_length;
+            let least_height = dot(normal, r).abs() - error * r_length;
+            if least_height > 2.0 * tolerance * (dot(normal, normal).sqrt() + error) {
+                return false;
+            }
         }
         let [a, b, c, v] = [a, b, c, v].map(|p| self.exact(p));
         let normal = b.sub(&a).cross(&c.sub(&a));
@@ -305,5 +321,45 @@ mod tests {
         let [a, b, c, v] = [0, 1, 2, 3].map(VertexId::new);
         assert!(points.near_line([a, b], v, 0.25) && points.near_plane([a, b, c], v, 0.25));
         assert!(!points.near_line([a, b], v, 0.2499) && !points.near_plane([a, b, c], v, 0.2499));
+    }
+
+    #[test]
+    fn distances_neither_overflow_nor_underflow() {
+        for e in [-1000, -600, -300, 0, 300, 600, 900] {
+            let scale = 2f64.powi(e);
+            let at = [
+                [0.0; 3],
+                [4.0, 0.0, 0.0],
+                [0.0, 4.0, 0.0],
+                [1.0, 0.25, 0.25],
+            ];
+            let points = Points::new(at.map(|p| p.map(|x| x * scale)).to_vec());
+            let [a, b, c, v] = [0, 1, 2, 3].map(VertexId);
+            assert!(points.near_line([a, b], v, 0.36 * scale), "2^{e}");
+            assert!(!points.near_line([a, b], v, 0.35 * scale), "2^{e}");
+            assert!(points.near_plane([a, b, c], v, 0.25 * scale), "2^{e}");
+            assert!(!points.near_plane([a, b, c], v, 0.24 * scale), "2^{e}");
+        }
+    }
+
+    /// The rounded normal of this needle points anywhere, but v is exactly on its plane.
+    #[test]
+    fn needles_have_a_plane() {
+        let third = 1.0 / 3.0;
+        let at = [
+            [0.0; 3],
+            [1.0, third, 0.1],
+            [
+                1.0 - f64::EPSILON,
+                third - f64::EPSILON / 4.0,
+                0.1 + f64::EPSILON / 16.0,
+            ],
+            [0.0; 3],
+        ];
+        let mut at = at.to_vec();
+        at[3] = [0, 1, 2].map(|i| 8.0 * at[1][i] - 7.0 * at[2][i]);
+        let points = Points::new(at);
+        let [a, b, c, v] = [0, 1, 2, 3].map(VertexId);
+        assert!(points.near_plane([a, b, c], v, 1e-14));
     }
 }
