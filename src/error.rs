@@ -85,6 +85,10 @@ impl Failure {
                     "gave up: segment {} cannot be divided any further; facets probably intersect near it",
                     edge(segment)
                 ),
+                GaveUp::TooManySteinerPoints { segment } => format!(
+                    "gave up: segment {} needs too many Steiner points; probably another edge nearly overlaps it",
+                    edge(segment)
+                ),
                 GaveUp::SegmentsTooClose { segments: [a, b] } => format!(
                     "gave up: segments {} and {} come too close for rounded Steiner points",
                     edge(a),
@@ -186,6 +190,12 @@ pub enum GaveUp {
     /// A segment cannot be divided further in the store's coordinates. Usually facets intersect near it.
     #[error("segment {}–{} cannot be divided any further; facets probably intersect near it", segment[0], segment[1])]
     SegmentTooShort {
+        /// The ends of the segment.
+        segment: [VertexId; 2],
+    },
+    /// A segment would need too many Steiner points: usually another one runs along it at the distance of rounding.
+    #[error("segment {}–{} needs too many Steiner points; probably another edge nearly overlaps it", segment[0], segment[1])]
+    TooManySteinerPoints {
         /// The ends of the segment.
         segment: [VertexId; 2],
     },

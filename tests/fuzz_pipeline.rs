@@ -521,7 +521,6 @@ fn polygon_that_cuts_the_hull_only_to_rounding() {
 
 /// Edges of two facets that overlap but for an ulp are divided on and on.
 #[test]
-#[ignore = "known to fail: segment recovery has no bound on Steiner points"]
 fn edges_an_ulp_apart_end() {
     let (x, y) = (32f64.next_down(), 8f64.next_up());
     let vertices = [

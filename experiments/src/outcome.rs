@@ -13,6 +13,7 @@ pub fn word<T>(result: &Result<T, Failure>) -> &'static str {
         Err(Failure::Plc(_) | Failure::Invalid(_)) => "invalid-plc",
         Err(Failure::GaveUp(gave_up)) => match gave_up {
             GaveUp::SegmentTooShort { .. } => "segment-too-short",
+            GaveUp::TooManySteinerPoints { .. } => "too-many-steiner-points",
             GaveUp::SegmentsTooClose { .. } => "segments-too-close",
             GaveUp::NotFlat { .. } => "not-flat",
             GaveUp::Stuck { .. } => "stuck",

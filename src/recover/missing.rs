@@ -106,9 +106,8 @@ fn inward<P: PointStore>(
     {
         return Ok(result(i));
     }
-    if let Some(i) = (0..n).find(|&i| side(i) == Side::Right && side(i + 1) == Side::Left) {
-        return Ok(Inward::Crossing(link[i].0));
-    }
+    let crossing = (0..n).find(|&i| side(i) == Side::Right && side(i + 1) == Side::Left);
+    let crossing = crossing.map(|i| Inward::Crossing(link[i].0));
     // Runs of vertices on h, as ranges of `link`. A flat f follows a right vertex and precedes a left one, and on the far
     // side it is the other way round. A vertex that is on the wrong side because f is not flat spoils one of the two.
     let on = |i: usize| on_f(i) || (side(i) == Side::Stray && on_left(i));
@@ -121,16 +120,21 @@ fn inward<P: PointStore>(
         let after = rank(side(last + 1), Side::Left, Side::Right);
         (before + after, first, last)
     });
+    // If f is flat there is either such a run or a crossing tetrahedron. If it is not, slivers beyond a face of f can look
+    // like crossing ones.
     let best = runs.filter(|run| run.0 >= 0).max_by_key(|run| run.0);
-    let (_, first, last) = best.ok_or(Obstacle::Nothing([a, b]))?;
+    let Some((_, first, last)) = best else {
+        return crossing.ok_or(Obstacle::Nothing([a, b]));
+    };
     // Vertices of f first: if f is not flat, a shim may also have a stray vertex beyond another edge of f.
-    let run = first..=last;
+    let mut run = first..=last;
     let chosen = if side(last + 1) == Side::Left {
-        run.rev().find(|&i| on_f(i))
+        run.rfind(|&i| on_f(i))
     } else {
-        run.into_iter().find(|&i| on_f(i))
+        run.find(|&i| on_f(i))
     };
     chosen
         .map(result)
+        .or(crossing)
         .ok_or_else(|| Obstacle::Stray(vertex(first)))
 }

@@ -27,7 +27,7 @@ use rustc_hash::FxHashMap;
 pub struct Subsegments {
     /// The segment of each subsegment, by its vertices in ascending order.
     of: FxHashMap<[VertexId; 2], u32>,
-    /// For each segment its vertices from end to end, with their parameters.
+    /// For each segment its vertices with their parameters; from end to end once recovery is finished.
     chains: Vec<Vec<(f64, VertexId)>>,
     /// For each Steiner point, the segment it lies on and its parameter there; indexed from `first_steiner`.
     steiner: Vec<(u32, f64)>,
@@ -86,15 +86,6 @@ impl Subsegments {
         self.steiner.len()
     }
 
-    /// Where the subsegment ab is in the chain of segment s, and its range of parameters. Logarithmic time.
-    fn range(&self, s: u32, a: VertexId, b: VertexId) -> (usize, [f64; 2]) {
-        let chain = &self.chains[s as usize];
-        let start = self.parameter(s, a).min(self.parameter(s, b));
-        let i = chain.partition_point(|&(t, _)| t < start);
-        debug_assert_eq!(key(chain[i].1, chain[i + 1].1), key(a, b));
-        (i, [chain[i].0, chain[i + 1].0])
-    }
-
     /// The parameter of a vertex of segment s.
     fn parameter(&self, s: u32, v: VertexId) -> f64 {
         match v.index().checked_sub(self.first_steiner) {
@@ -104,16 +95,22 @@ impl Subsegments {
         }
     }
 
-    fn split(&mut self, s: u32, at: usize, t: f64, v: VertexId) -> [[VertexId; 2]; 2] {
-        let chain = &mut self.chains[s as usize];
-        let (a, b) = (chain[at].1, chain[at + 1].1);
-        chain.insert(at + 1, (t, v));
+    /// Divides the subsegment ab of segment s at v, which has the parameter t.
+    fn split(&mut self, s: u32, [a, b]: [VertexId; 2], t: f64, v: VertexId) -> [[VertexId; 2]; 2] {
         self.of.remove(&key(a, b));
         self.of.insert(key(a, v), s);
         self.of.insert(key(v, b), s);
         debug_assert_eq!(v.index(), self.first_steiner + self.steiner.len());
         self.steiner.push((s, t));
+        self.chains[s as usize].push((t, v));
         [[a, v], [v, b]]
+    }
+
+    /// Brings the chains into order, once all Steiner points are there.
+    fn finish(&mut self) {
+        for chain in &mut self.chains {
+            chain.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+        }
     }
 }
 
@@ -166,8 +163,13 @@ pub fn recover_segments<P: PointStore>(
     while let Some([a, b]) = recovery.missing.pop() {
         recovery.recover(a, b)?;
     }
+    recovery.subsegments.finish();
     Ok((recovery.subsegments, recovery.incidence))
 }
+
+/// No valid segment of ordinary input needs so many vertices. Edges that nearly overlap, an ulp apart all along, would
+/// need one every few ulps.
+const MOST_VERTICES_PER_SEGMENT: usize = 1 << 16;
 
 struct SegmentRecovery<'a, P> {
     points: &'a mut P,
@@ -265,7 +267,12 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         reference: Option<Reference>,
     ) -> Result<(), Failure> {
         let ends = self.subsegments.ends[s as usize];
-        let (at, range) = self.subsegments.range(s, a, b);
+        if self.subsegments.chains[s as usize].len() >= MOST_VERTICES_PER_SEGMENT {
+            let segment = ends;
+            return Err(GaveUp::TooManySteinerPoints { segment }.into());
+        }
+        let mut range = [a, b].map(|v| self.subsegments.parameter(s, v));
+        range.sort_unstable_by(f64::total_cmp);
         let subsegment = Subsegment {
             ends: ends.map(|v| self.points.rounded(v)),
             range,
@@ -290,7 +297,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         self.delaunay.replace_conflicts(v);
         self.incidence
             .update(&self.delaunay.mesh, self.delaunay.created());
-        self.missing.extend(self.subsegments.split(s, at, t, v));
+        self.missing.extend(self.subsegments.split(s, [a, b], t, v));
         Ok(())
     }
 

@@ -184,7 +184,7 @@ fn intersections_are_refused_by_name() {
 /// After a rotation facets are flat only to rounding. That may be too hard, but it is no intersection, and vertex 1, on
 /// the line of the edge 2-3, must not be found inside the facet of that edge.
 #[test]
-fn a_rotated_box_is_not_called_invalid() {
+fn a_rotated_box_is_meshed() {
     let (cos, sin) = (0.955336489125606, 0.29552020666133955);
     let rotate = |[x, y, z]: Point| {
         let (x, y) = (cos * x - sin * y, sin * x + cos * y);
@@ -211,14 +211,7 @@ fn a_rotated_box_is_not_called_invalid() {
     let place = Place::with(&[("rotated.poly", &text)]);
     for way in ["cavity", "flip"] {
         let run = place.run(&format!("mesh rotated.poly --insert {way} --verify"));
-        if run.output.status.code() != Some(0) {
-            let run = run.ends_with(1);
-            assert!(
-                run.stderr().contains("not exactly flat"),
-                "{}",
-                run.stderr()
-            );
-        }
+        run.ends_with(0);
     }
 }
 
