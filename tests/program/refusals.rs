@@ -181,8 +181,7 @@ fn intersections_are_refused_by_name() {
     }
 }
 
-/// After a rotation facets are flat only to rounding. That may be too hard, but it is no intersection, and vertex 1, on
-/// the line of the edge 2-3, must not be found inside the facet of that edge.
+/// After a rotation facets are flat only to rounding, and slivers of the convex hull look as if they crossed them.
 #[test]
 fn a_rotated_box_is_meshed() {
     let (cos, sin) = (0.955336489125606, 0.29552020666133955);
