@@ -176,6 +176,35 @@ fn sphere() -> impl Strategy<Value = Plc> {
     })
 }
 
+/// Upright rectangles that float above and below a large one, inserted before it, and points between them: the cavities
+/// of the large one have triangles on the upright ones that are not Delaunay for the cavity's vertices.
+fn fins() -> impl Strategy<Value = Plc> {
+    let fin = (1i32..5, 1i32..4, any::<bool>());
+    let fins = prop::collection::vec(fin, 5);
+    let points = prop::collection::btree_set([-5i32..6, -5..6, -4..5], 5..60);
+    (fins, points).prop_map(|(fins, points)| {
+        let mut all: Vec<[i32; 3]> = vec![[-7, -7, 0], [7, -7, 0], [7, 7, 0], [-7, 7, 0]];
+        let mut facets = Vec::new();
+        for (i, (half, height, above)) in fins.into_iter().enumerate() {
+            let (x, n) = (2 * i as i32 - 4, all.len() as u32);
+            let [near, far] = [1, 1 + height].map(|z| if above { z } else { -z });
+            all.extend([
+                [x, -half, near],
+                [x, half, near],
+                [x, half, far],
+                [x, -half, far],
+            ]);
+            facets.push(facet(&[n, n + 1, n + 2, n + 3]));
+        }
+        facets.push(facet(&[0, 1, 2, 3]));
+        // Other points have odd x, off the planes of the fins.
+        all.extend(points.into_iter().filter(|p| p[0] % 2 != 0 && p[2] != 0));
+        let mut plc = plc_of_points(all.into_iter().map(|p| p.map(f64::from)).collect());
+        plc.facets = facets;
+        plc
+    })
+}
+
 fn facet(vertices: &[u32]) -> Facet {
     Facet {
         polygons: vec![vertices.iter().map(|&v| VertexId(v)).collect()],
@@ -198,6 +227,11 @@ proptest! {
 
     #[test]
     fn walls_agree(plc in walls()) {
+        agree(&plc);
+    }
+
+    #[test]
+    fn fins_agree(plc in fins()) {
         agree(&plc);
     }
 
@@ -253,4 +287,28 @@ fn four_four_flip_certifies_its_own_plane() {
     assert!(agree(&plc).is_some());
     let (_, counts) = run(&plc, Insertion::Flip(Times::Exact)).expect("a valid PLC");
     assert!(counts.flips.four_four > 0);
+}
+
+/// The rare ways of cavity retriangulation are taken, swallowing tetrahedra, displacing polygons and reinserting them, and
+/// the mesh is still that of the flips.
+#[test]
+fn cavities_swallow_and_displace() {
+    use proptest::strategy::ValueTree;
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    let family = fins();
+    let (mut swallowed, mut displaced, mut reinserted) = (0, 0, 0);
+    for _ in 0..1500 {
+        let plc = family.new_tree(&mut runner).expect("a PLC").current();
+        let Ok((mesh, counts)) = run(&plc, Insertion::Cavity) else {
+            continue;
+        };
+        swallowed += counts.swallowed;
+        displaced += counts.displaced;
+        reinserted += counts.reinserted;
+        if counts.swallowed > 0 {
+            let flips = run(&plc, Insertion::Flip(Times::Filtered)).expect("as by cavities");
+            assert_eq!(mesh, flips.0);
+        }
+    }
+    assert!(swallowed > 0 && displaced > 0 && reinserted > 0);
 }
