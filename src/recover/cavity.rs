@@ -312,11 +312,8 @@ impl Cavity {
             .copied()
             .chain(f.iter().map(|&t| face(t)))
             .collect();
-        let outer = self.boundary.iter().map(|&(facet, outside)| {
-            // A facet found when a tetrahedron was swallowed is still oriented outwards from that tetrahedron.
-            debug_assert_ne!(outside, Corner::NONE);
-            facet
-        });
+        // All facets of the boundary are oriented outwards, those found on swallowing a tetrahedron, too.
+        let outer = self.boundary.iter().map(|&(facet, _)| facet);
         let mut inside: Vec<TetId> = Vec::new();
         let mut seen = vec![false; mesh.capacity()];
         for facet in outer.chain(f.iter().copied()) {
