@@ -11,6 +11,7 @@ use crate::plc::{Complex, Plc};
 use crate::predicate::{DoublePoints, PointStore};
 use crate::recover::cavity::face;
 use crate::recover::domain::{DomainMarks, keeps_edge, mark_domain};
+use crate::recover::flips::Watch;
 use crate::recover::polygons::{Insertion, PolygonCounts, PolygonInsertion, Subpolygons, Times};
 use crate::recover::segments::{Subsegments, recover_segments};
 use crate::report::{Phase, Report};
@@ -102,8 +103,22 @@ impl<P: PointStore> Cdt<P> {
         report: &mut Report,
         progress: &mut dyn FnMut(usize),
     ) -> Result<PolygonCounts, Failure> {
+        self.insert_polygons_watched(insertion, report, progress, None)
+    }
+
+    /// [`Cdt::insert_polygons`], with somebody who is told about every flip.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn insert_polygons_watched<'a>(
+        &'a mut self,
+        insertion: Insertion,
+        report: &mut Report,
+        progress: &mut dyn FnMut(usize),
+        watch: Option<&'a mut dyn Watch>,
+    ) -> Result<PolygonCounts, Failure> {
         report.insertion = Some(insertion);
-        report.time(Phase::Polygons, |report| {
+        report.time(Phase::Polygons, move |report| {
             let mut polygons = PolygonInsertion {
                 points: &self.points,
                 mesh: &mut self.mesh,
@@ -114,6 +129,7 @@ impl<P: PointStore> Cdt<P> {
                 insertion,
                 counts: PolygonCounts::default(),
                 candidates: Vec::new(),
+                watch,
             };
             let result = polygons.insert_all(progress);
             report.insertion_counts = polygons.counts;

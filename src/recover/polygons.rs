@@ -2,7 +2,8 @@
 
 use super::cavity::{self, Face, Refused, face};
 use super::flips::{
-    ExactTimes, FilteredTimes, FlipInsertion, FlipOutcome, FlipTimes, RoundedTimes, polygon_faces,
+    ExactTimes, FilteredTimes, FlipInsertion, FlipOutcome, FlipTimes, RoundedTimes, Watch,
+    polygon_faces,
 };
 pub use super::method::{Insertion, PolygonCounts, Times};
 use super::missing::{self, Obstacle};
@@ -40,6 +41,8 @@ pub struct PolygonInsertion<'a, P> {
     pub counts: PolygonCounts,
     /// The triangles noted for the polygon that is being inserted.
     pub candidates: Vec<Face>,
+    /// Who watches the flips.
+    pub watch: Option<&'a mut dyn Watch>,
 }
 
 /// The triangles of a region's part of f, after its insertion.
@@ -278,6 +281,9 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     ) -> Result<(), (RegionFailure, Region)> {
         let before: Vec<[VertexId; 4]> =
             region.tets.iter().map(|&t| self.mesh.vertices(t)).collect();
+        if let Some(watch) = &mut self.watch {
+            watch.begin(f, sides.frame, &before);
+        }
         let is_left = |v: VertexId| sides.of(v) == Side::Left;
         let (points, frame) = (self.points, sides.frame);
         let (outcome, tets) = match times {
@@ -330,8 +336,9 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         region: &Region,
         times: C,
     ) -> (FlipOutcome, Vec<TetId>) {
-        let (outcome, tets, counts) =
-            FlipInsertion::new(self.mesh, sides, region, times).insert(region);
+        let (outcome, tets, counts) = FlipInsertion::new(self.mesh, sides, region, times)
+            .watched_by(self.watch.as_deref_mut().map(|w| w as &mut dyn Watch))
+            .insert(region);
         self.counts.flips.add(&counts);
         (outcome, tets)
     }

@@ -9,12 +9,16 @@ mod filtered;
 mod moves;
 mod queue;
 mod time;
+mod watch;
 
 pub use event::Event;
 pub use filtered::{FilteredTime, FilteredTimes};
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
-pub use time::{ExactTimes, FlipTimes, Float, LeftVertices, Quotient, RoundedTimes, Undecided};
+pub use time::{
+    ExactTimes, FlipTimes, Float, LeftVertices, Quotient, RoundedTimes, Timed, Undecided,
+};
+pub use watch::{Fate, Watch};
 
 use super::region::Region;
 use super::side::{Side, Sides};
@@ -102,6 +106,7 @@ pub struct FlipInsertion<'a, P, C: FlipTimes> {
     /// The list L of §3.3.
     postponed: Vec<Event<C::Time>>,
     counts: FlipCounts,
+    watch: Option<&'a mut dyn Watch>,
 }
 
 impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
@@ -115,6 +120,19 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             region: region.tets.iter().copied().collect(),
             postponed: Vec::new(),
             counts: FlipCounts::default(),
+            watch: None,
+        }
+    }
+
+    /// The same, watched.
+    pub fn watched_by(mut self, watch: Option<&'a mut dyn Watch>) -> Self {
+        self.watch = watch;
+        self
+    }
+
+    fn tell(&mut self, circuit: [VertexId; 5], fate: Fate) {
+        if let Some(watch) = &mut self.watch {
+            watch.event(circuit, fate);
         }
     }
 
@@ -128,21 +146,29 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         while let Some(event) = self.queue.pop(&mut self.times) {
             let Some(s) = event.corner_if_alive(self.mesh) else {
                 self.counts.stale += 1;
+                self.tell(event.circuit, Fate::Stale);
                 continue;
             };
             match self.flip(s) {
-                Ok(created) if C::EXACT => self.certify_around(&created),
-                Ok(created) => {
+                Ok((kind, created)) => {
+                    self.tell(event.circuit, Fate::Flipped(kind));
                     self.certify_around(&created);
-                    self.patch_after_flip(created);
+                    if !C::EXACT {
+                        self.patch_after_flip(created);
+                    }
                 }
-                Err(_) if C::EXACT => {
+                Err(refused) if C::EXACT => {
+                    self.tell(event.circuit, refused.fate());
                     outcome = FlipOutcome::Impossible;
                     break;
                 }
-                Err(Refused::OutsideRegion) => self.counts.discarded_outside += 1,
+                Err(Refused::OutsideRegion) => {
+                    self.counts.discarded_outside += 1;
+                    self.tell(event.circuit, Fate::OutsideRegion);
+                }
                 Err(Refused::Impossible) => {
                     self.counts.postponed += 1;
+                    self.tell(event.circuit, Fate::Impossible);
                     self.postponed.push(event);
                 }
             }
@@ -160,6 +186,10 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         self.counts.compared_exactly = undecided.compared_exactly;
         self.counts.ties = undecided.ties;
         self.counts.overflows = undecided.overflows;
+        if let Some(watch) = self.watch {
+            let vertices: Vec<_> = tets.iter().map(|&t| self.mesh.vertices(t)).collect();
+            watch.end(outcome, &vertices);
+        }
         (outcome, tets, self.counts)
     }
 
@@ -200,7 +230,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     }
 
     /// Flip of Fig. 7: the flip that removes the triangle opposite corner `s`. Returns the new tetrahedra.
-    fn flip(&mut self, s: Corner) -> Result<Vec<TetId>, Refused> {
+    fn flip(&mut self, s: Corner) -> Result<(FlipKind, Vec<TetId>), Refused> {
         let flip =
             flip_of_triangle(self.sides.points(), self.mesh, s).ok_or(Refused::Impossible)?;
         if !flip.old.iter().all(|t| self.region.contains(t)) {
@@ -216,7 +246,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             FlipKind::ThreeTwo => self.counts.three_two += 1,
             FlipKind::FourFour => self.counts.four_four += 1,
         }
-        Ok(created)
+        Ok((flip.kind, created))
     }
 
     /// The second and third patch of §3.3, for rounded times, after a flip that created `created`.
@@ -230,8 +260,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                     continue;
                 };
                 match self.flip(s) {
-                    Ok(created) => {
+                    Ok((kind, created)) => {
                         self.counts.performed_from_list += 1;
+                        self.tell(event.circuit, Fate::FlippedFromList(kind));
                         self.certify_around(&created);
                         self.restore_non_crossing(created);
                         progress = true;
@@ -254,9 +285,10 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             let bad = (0..4)
                 .map(|slot| t.corner(slot))
                 .find(|&s| self.is_bad_non_crossing(s));
-            if let Some(s) = bad
-                && let Ok(created) = self.flip(s)
-            {
+            let Some(s) = bad else { continue };
+            let circuit = event::circuit(self.mesh, s);
+            if let Ok((kind, created)) = self.flip(s) {
+                self.tell(circuit, Fate::FlippedNonCrossing(kind));
                 self.counts.non_crossing += 1;
                 self.certify_around(&created);
                 pending.extend(created);
@@ -285,6 +317,15 @@ enum Refused {
     Impossible,
     /// It would remove a tetrahedron outside R.
     OutsideRegion,
+}
+
+impl Refused {
+    fn fate(&self) -> Fate {
+        match self {
+            Refused::Impossible => Fate::Impossible,
+            Refused::OutsideRegion => Fate::OutsideRegion,
+        }
+    }
 }
 
 /// The faces with all vertices on f that separate a left vertex from the rest: the triangulation of f in the region.

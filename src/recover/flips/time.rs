@@ -240,7 +240,7 @@ impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
     }
 
     /// N and D, if D > 0.
-    pub(super) fn quotient(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
+    pub fn quotient(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
         if !self.denominator.of(circuit).is_positive() {
             return None;
         }
@@ -252,7 +252,7 @@ impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
     }
 
     /// Which of two events, given by circuit and time, comes first: the sign of t_0, then the perturbation.
-    pub(super) fn compare_quotients(&mut self, a: Timed<N>, b: Timed<N>) -> Ordering {
+    pub fn compare_quotients(&mut self, a: Timed<N>, b: Timed<N>) -> Ordering {
         let ab = a.1.numerator.clone() * &b.1.denominator;
         let ba = b.1.numerator.clone() * &a.1.denominator;
         match (ab - &ba).exact_sign() {
@@ -292,7 +292,7 @@ impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
 }
 
 /// A circuit with its time.
-type Timed<'t, N> = ([VertexId; 5], &'t Quotient<N>);
+pub type Timed<'t, N> = ([VertexId; 5], &'t Quotient<N>);
 
 impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
     type Time = Quotient<N>;
