@@ -12,7 +12,9 @@ use crate::predicate::{DoublePoints, PointStore};
 use crate::recover::cavity::face;
 use crate::recover::domain::{DomainMarks, keeps_edge, mark_domain};
 use crate::recover::flips::Watch;
-use crate::recover::polygons::{Insertion, PolygonCounts, PolygonInsertion, Subpolygons, Times};
+use crate::recover::polygons::{
+    Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons, Times,
+};
 use crate::recover::segments::{Subsegments, recover_segments};
 use crate::report::{Phase, Report};
 
@@ -129,6 +131,7 @@ impl<P: PointStore> Cdt<P> {
                 insertion,
                 counts: PolygonCounts::default(),
                 candidates: Vec::new(),
+                scratch: Scratch::default(),
                 watch,
             };
             let result = polygons.insert_all(progress);

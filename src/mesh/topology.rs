@@ -10,6 +10,7 @@
 //! Memory: 32 bytes per tetrahedron.
 
 use super::{Corner, TetId, VertexId};
+use arrayvec::ArrayVec;
 use rustc_hash::FxHashMap;
 
 /// `FACET[i]` completes `i` to an even permutation of 0123, so `[i, FACET[i]..]` keeps orientation.
@@ -269,14 +270,44 @@ impl TetMesh {
         ids
     }
 
+    /// [`TetMesh::replace`] for the few tetrahedra of a bistellar flip, without allocation: at most four on either side.
+    ///
+    /// # Panics
+    /// If the new tetrahedra do not fill the space of the old ones.
+    pub fn replace_few(&mut self, old: &[TetId], new: &[[VertexId; 4]]) -> ArrayVec<TetId, 4> {
+        let mut open: ArrayVec<([VertexId; 3], Corner), 16> = ArrayVec::new();
+        for &t in old {
+            for c in (0..4).map(|slot| t.corner(slot)) {
+                let outside = self.twin(c);
+                if !old.contains(&outside.tet()) {
+                    open.push((sorted(self.facet(c)), outside));
+                }
+            }
+        }
+        for &t in old {
+            self.remove(t);
+        }
+        let ids: ArrayVec<TetId, 4> = new.iter().map(|&v| self.add(v)).collect();
+        for &t in &ids {
+            for c in (0..4).map(|slot| t.corner(slot)) {
+                let facet = sorted(self.facet(c));
+                match open.iter().position(|(f, _)| *f == facet) {
+                    Some(i) => self.glue(c, open.swap_remove(i).1),
+                    None => open.push((facet, c)),
+                }
+            }
+        }
+        assert!(
+            open.is_empty(),
+            "new tetrahedra fill the space of the old ones"
+        );
+        ids
+    }
+
     /// Whether [`TetMesh::replace`] would find that `new` fills the space of `old`: the facets that only one of the new
     /// tetrahedra has are those of the boundary of the old ones.
     pub fn can_replace(&self, old: &[TetId], new: &[[VertexId; 4]]) -> bool {
         let mut open: FxHashMap<[VertexId; 3], i32> = FxHashMap::default();
-        let sorted = |mut facet: [VertexId; 3]| {
-            facet.sort_unstable();
-            facet
-        };
         for &t in old {
             for c in (0..4).map(|slot| t.corner(slot)) {
                 if !old.contains_fast(self.neighbor(c)) {
@@ -323,6 +354,13 @@ impl TetMesh {
     }
 }
 
+/// Three vertices in ascending order.
+#[inline]
+fn sorted([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+    let (low, high) = (a.min(b), a.max(b));
+    [low.min(c), low.max(high.min(c)), high.max(c)]
+}
+
 /// Membership in a short list by scan, in a long one that is sorted by binary search.
 trait ContainsFast {
     fn contains_fast(&self, t: TetId) -> bool;
@@ -354,8 +392,8 @@ impl OpenFacets {
         }
     }
 
-    fn insert(&mut self, mut facet: [VertexId; 3], c: Corner) {
-        facet.sort_unstable();
+    fn insert(&mut self, facet: [VertexId; 3], c: Corner) {
+        let facet = sorted(facet);
         match self {
             OpenFacets::Few(list) => list.push((facet, c)),
             OpenFacets::Many(map) => {
@@ -364,8 +402,8 @@ impl OpenFacets {
         }
     }
 
-    fn take(&mut self, mut facet: [VertexId; 3]) -> Option<Corner> {
-        facet.sort_unstable();
+    fn take(&mut self, facet: [VertexId; 3]) -> Option<Corner> {
+        let facet = sorted(facet);
         match self {
             OpenFacets::Few(list) => {
                 let i = list.iter().position(|(f, _)| *f == facet)?;
@@ -426,6 +464,36 @@ mod tests {
         let ghosts = [0, 1, 2, 3].map(with_infinity);
         mesh.replace(&[mirror], &ghosts);
         mesh
+    }
+
+    #[test]
+    fn three_vertices_are_sorted() {
+        for p in [
+            [0, 1, 2],
+            [0, 2, 1],
+            [1, 0, 2],
+            [1, 2, 0],
+            [2, 0, 1],
+            [2, 1, 0],
+        ] {
+            assert_eq!(sorted(ids(p)), ids([0, 1, 2]));
+        }
+    }
+
+    #[test]
+    fn replace_few_is_replace() {
+        let few = sphere();
+        // Vertex 4 is put into the finite tetrahedron and taken out again.
+        let mut mesh = few.clone();
+        let t = mesh.finite().next().expect("one finite tetrahedron");
+        let v = mesh.vertices(t);
+        let around = FACET.map(|[j, k, l]| [VertexId(4), v[j], v[k], v[l]]);
+        let created = mesh.replace_few(&[t], &around);
+        assert_eq!(mesh.check(), Ok(()));
+        assert_eq!(mesh.finite().count(), 4);
+        let back = mesh.replace_few(&created, &[v]);
+        assert_eq!(mesh.check(), Ok(()));
+        assert_eq!((back.len(), mesh.len()), (1, few.len()));
     }
 
     #[test]

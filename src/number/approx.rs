@@ -54,6 +54,28 @@ impl Approx {
         f64::from(self.index) * ROUNDING * self.magnitude * (1.0 + 8.0 * ROUNDING) + TINY
     }
 
+    /// A value with the magnitude and the index of an earlier computation.
+    #[inline]
+    pub(crate) fn with_bound(value: f64, magnitude: f64, index: u32) -> Approx {
+        Approx {
+            value,
+            magnitude,
+            index,
+        }
+    }
+
+    /// k of the proof; 0 for a given double.
+    #[inline]
+    pub(crate) fn index(&self) -> u32 {
+        self.index
+    }
+
+    /// m of the proof.
+    #[inline]
+    pub(crate) fn magnitude(&self) -> f64 {
+        self.magnitude
+    }
+
     /// The computed value.
     #[inline]
     pub fn value(&self) -> f64 {

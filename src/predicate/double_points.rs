@@ -190,6 +190,10 @@ impl PointStore for DoublePoints {
         }
     }
 
+    fn grid(&self) -> Option<i32> {
+        Some(self.range.grid)
+    }
+
     #[inline]
     fn identity(&self, v: VertexId) -> u32 {
         self.identities

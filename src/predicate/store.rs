@@ -43,6 +43,11 @@ pub trait PointStore {
     /// spatial order.
     fn identity(&self, v: VertexId) -> u32;
 
+    /// A g such that all coordinates are multiples of 2^g, if one is known.
+    fn grid(&self) -> Option<i32> {
+        None
+    }
+
     /// The sign of det[b−a, c−a, d−a].
     fn orient3d(&self, v: [VertexId; 4]) -> Sign {
         let p = v.map(|v| self.coordinates::<Dyadic>(v));

@@ -9,6 +9,7 @@ pub mod missing;
 pub mod polygons;
 pub mod region;
 pub mod scout;
+pub mod scratch;
 pub mod segments;
 pub mod side;
 pub mod split;

@@ -2,12 +2,13 @@
 
 use super::cavity::{self, Face, Refused, face};
 use super::flips::{
-    ExactTimes, FilteredTimes, FlipInsertion, FlipOutcome, FlipTimes, RoundedTimes, Watch,
-    polygon_faces,
+    ExactTimes, FilteredTimes, FlipInsertion, FlipOutcome, FlipTimes, Motion, RoundedTimes,
+    VertexNumbers, Watch, polygon_faces,
 };
 pub use super::method::{Insertion, PolygonCounts, Times};
 use super::missing::{self, Obstacle};
 use super::region::Region;
+use super::scratch::Table;
 use super::segments::{SegmentIndex, Subsegments};
 use super::side::{Side, Sides};
 use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
@@ -41,8 +42,17 @@ pub struct PolygonInsertion<'a, P> {
     pub counts: PolygonCounts,
     /// The triangles noted for the polygon that is being inserted.
     pub candidates: Vec<Face>,
+    /// Memory used again for every polygon.
+    pub scratch: Scratch,
     /// Who watches the flips.
     pub watch: Option<&'a mut dyn Watch>,
+}
+
+/// Tables that are kept from polygon to polygon.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    marks: Table<bool>,
+    numbers: VertexNumbers,
 }
 
 /// The triangles of a region's part of f, after its insertion.
@@ -285,33 +295,18 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             watch.begin(f, sides.frame, &before);
         }
         let is_left = |v: VertexId| sides.of(v) == Side::Left;
-        let (points, frame) = (self.points, sides.frame);
+        let numbers = std::mem::take(&mut self.scratch.numbers);
+        let motion = Motion::with_numbers(self.points, sides.frame, &is_left, numbers);
+        let m = &motion;
         let (outcome, tets) = match times {
-            Times::F32 => self.run(
-                sides,
-                &region,
-                RoundedTimes::<P, f32>::new(points, frame, &is_left),
-            ),
-            Times::F64 => self.run(
-                sides,
-                &region,
-                RoundedTimes::<P, f64>::new(points, frame, &is_left),
-            ),
-            Times::Filtered => {
-                self.run(sides, &region, FilteredTimes::new(points, frame, &is_left))
-            }
-            Times::Exact => self.run(
-                sides,
-                &region,
-                ExactTimes::<P, Dyadic>::new(points, frame, &is_left),
-            ),
+            Times::F32 => self.run(sides, &region, RoundedTimes::<P, f32>::new(m)),
+            Times::F64 => self.run(sides, &region, RoundedTimes::<P, f64>::new(m)),
+            Times::Filtered => self.run(sides, &region, FilteredTimes::new(m)),
+            Times::Exact => self.run(sides, &region, ExactTimes::<P, Dyadic>::new(m)),
             #[cfg(feature = "rug")]
-            Times::Rug => self.run(
-                sides,
-                &region,
-                ExactTimes::<P, rug::Rational>::new(points, frame, &is_left),
-            ),
+            Times::Rug => self.run(sides, &region, ExactTimes::<P, rug::Rational>::new(m)),
         };
+        self.scratch.numbers = motion.into_numbers();
         self.incidence.update(self.mesh, &tets);
         let faces = polygon_faces(self.mesh, sides, &tets);
         let failure = match outcome {
@@ -336,9 +331,10 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         region: &Region,
         times: C,
     ) -> (FlipOutcome, Vec<TetId>) {
-        let (outcome, tets, counts) = FlipInsertion::new(self.mesh, sides, region, times)
-            .watched_by(self.watch.as_deref_mut().map(|w| w as &mut dyn Watch))
-            .insert(region);
+        let (outcome, tets, counts) =
+            FlipInsertion::new(self.mesh, sides, region, times, &mut self.scratch.marks)
+                .watched_by(self.watch.as_deref_mut().map(|w| w as &mut dyn Watch))
+                .insert(region);
         self.counts.flips.add(&counts);
         (outcome, tets)
     }

@@ -23,120 +23,205 @@
 //! q̂_B − q̂_A > (w_A + w_B)(1 + 2⁻⁵⁰) in floats implies τ_A < τ_B: the left side is at most (1 + u) times its exact value,
 //! the right side at least (1 + 2⁻⁵⁰)(1 − 2u) > 1 + u times w_A + w_B. NaN and infinity make it false.
 
-use super::event::Event;
-use super::time::{ExactTimes, FlipTimes, LeftVertices, Quotient, Rates, Undecided, same_vertices};
+use super::filter::Filter;
+use super::motion::Motion;
+use super::time::{
+    ExactTimes, FlipTimes, Quotient, Timed, Timing, Undecided, compare_perturbed, same_vertices,
+};
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Number, Sign};
 use crate::predicate::PointStore;
-use std::cell::OnceCell;
+use std::cell::Cell;
 use std::cmp::Ordering;
 
-/// A flip time: a float enclosure, and the exact quotient once a comparison has needed it.
-#[derive(Clone, Debug)]
-pub struct FilteredTime {
-    /// τ is within `width` of `middle`.
+/// A float enclosure of a time: it is within `width` of `middle`.
+#[derive(Clone, Copy, Debug)]
+pub struct Enclosure {
     middle: f64,
     width: f64,
-    exact: OnceCell<Box<Quotient<Dyadic>>>,
+}
+
+/// Where the exact quotient of a time is kept: 0, or 1 + its place in [`FilteredTimes`]' list.
+#[derive(Clone, Debug, Default)]
+pub struct FilteredTime(Cell<u32>);
+
+/// An exact quotient.
+#[derive(Clone, Debug)]
+enum Exactly {
+    /// N and D in quanta of the grid that all coordinates lie on.
+    Integers([i64; 2]),
+    /// In numbers of any size.
+    Big(Box<Quotient<Dyadic>>),
 }
 
 /// Flip times whose order is exact and is mostly decided by floats.
 pub struct FilteredTimes<'a, P> {
-    filter: Rates<'a, P, Approx>,
+    points: &'a P,
+    filter: Filter<'a, P>,
     exact: ExactTimes<'a, P, Dyadic>,
+    quotients: Vec<Exactly>,
     /// Comparisons that needed exact quotients.
     compared_exactly: u64,
+    /// Comparisons of equal quotients of integers.
+    ties: u64,
 }
 
 impl<'a, P: PointStore> FilteredTimes<'a, P> {
-    /// For the polygon with the given frame; `is_left` tells the left vertices.
-    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
+    /// For the given motion.
+    pub fn new(motion: &'a Motion<'a, P>) -> Self {
         FilteredTimes {
-            filter: Rates::new(points, frame, is_left),
-            exact: ExactTimes::new(points, frame, is_left),
+            points: motion.points,
+            filter: Filter::new(motion),
+            exact: ExactTimes::new(motion),
+            quotients: Vec::new(),
             compared_exactly: 0,
+            ties: 0,
         }
+    }
+
+    fn keep(&mut self, exactly: Exactly) -> FilteredTime {
+        self.quotients.push(exactly);
+        let place = u32::try_from(self.quotients.len()).expect("fewer than 2^32 events");
+        FilteredTime(Cell::new(place))
+    }
+
+    /// The exact quotient of an event, computed if no comparison has needed it yet: its place in the list.
+    fn exactly(&mut self, (event, time): Timed<FilteredTime>) -> usize {
+        if time.0.get() == 0 {
+            let quotient = self.exact.exact_quotient(event.circuit);
+            let quotient = quotient.expect("only events with positive D are queued");
+            let kept = self.keep(Exactly::Big(Box::new(quotient)));
+            time.0.set(kept.0.get());
+        }
+        (time.0.get() - 1) as usize
+    }
+
+    /// The same in numbers of any size.
+    fn big(&mut self, event: Timed<FilteredTime>) -> usize {
+        let place = self.exactly(event);
+        if let Exactly::Integers(_) = self.quotients[place] {
+            let quotient = self.exact.exact_quotient(event.0.circuit);
+            let quotient = quotient.expect("only events with positive D are queued");
+            self.quotients[place] = Exactly::Big(Box::new(quotient));
+        }
+        place
+    }
+
+    /// The comparison of two quotients of integers of up to 53 bits; `None` if they are equal and the coefficients of the
+    /// circuits are not certain.
+    fn compare_integers(
+        &mut self,
+        (a, [na, da]): (&[VertexId; 5], [i64; 2]),
+        (b, [nb, db]): (&[VertexId; 5], [i64; 2]),
+    ) -> Option<Ordering> {
+        let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
+        let t0 = product(na, db).cmp(&product(nb, da));
+        if t0.is_ne() {
+            return Some(t0.reverse());
+        }
+        let ca = self.filter.integer_coefficients(*a)?;
+        let cb = self.filter.integer_coefficients(*b)?;
+        self.ties += 1;
+        Some(compare_perturbed(self.points, *a, *b, |i, j| {
+            let of_a = i.map_or(0, |i| product(ca[i], db));
+            let of_b = j.map_or(0, |j| product(cb[j], da));
+            of_a.cmp(&of_b).into()
+        }))
     }
 }
 
 impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
+    type Key = Enclosure;
     type Time = FilteredTime;
     const EXACT: bool = true;
 
-    fn time(&mut self, circuit: [VertexId; 5]) -> Option<FilteredTime> {
-        let (n, d) = self.filter.evaluate(circuit);
-        let exact = OnceCell::new();
-        match d.sign() {
-            Some(Sign::Positive) => {
-                let (middle, width) = enclosure(&n, &d);
-                Some(FilteredTime {
-                    middle,
-                    width,
-                    exact,
-                })
-            }
-            Some(_) => None,
-            None => {
-                let quotient = self.exact.quotient(circuit)?;
-                let _ = exact.set(Box::new(quotient));
-                let (middle, width) = (0.0, f64::INFINITY);
-                Some(FilteredTime {
-                    middle,
-                    width,
-                    exact,
-                })
-            }
+    #[inline]
+    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<Enclosure, FilteredTime>> {
+        let evaluated = self.filter.evaluate(circuit)?;
+        let signs = evaluated.signs;
+        if evaluated.d.sign() != Some(Sign::Positive) {
+            let quotient = self.exact.exact_quotient(circuit)?;
+            let (middle, width) = (0.0, f64::INFINITY);
+            return Some(Timing {
+                key: Enclosure { middle, width },
+                time: self.keep(Exactly::Big(Box::new(quotient))),
+                signs,
+            });
+        }
+        let time = match evaluated.integers {
+            Some(integers) => self.keep(Exactly::Integers(integers)),
+            None => FilteredTime::default(),
+        };
+        let key = enclosure(&evaluated.n, &evaluated.d);
+        Some(Timing { key, time, signs })
+    }
+
+    #[inline]
+    fn compare_keys(a: Enclosure, b: Enclosure) -> Option<Ordering> {
+        let gap = b.middle - a.middle;
+        let widths = (a.width + b.width) * (1.0 + 4.0 * f64::EPSILON);
+        if gap > widths {
+            Some(Ordering::Less)
+        } else if -gap > widths {
+            Some(Ordering::Greater)
+        } else {
+            None
         }
     }
 
-    fn compare(&mut self, a: &Event<FilteredTime>, b: &Event<FilteredTime>) -> Ordering {
-        let gap = b.time.middle - a.time.middle;
-        let widths = (a.time.width + b.time.width) * (1.0 + 4.0 * f64::EPSILON);
-        if gap > widths {
-            return Ordering::Less;
-        }
-        if -gap > widths {
-            return Ordering::Greater;
-        }
-        if same_vertices(a.circuit, b.circuit) {
+    fn compare(&mut self, a: Timed<FilteredTime>, b: Timed<FilteredTime>) -> Ordering {
+        self.compared_exactly += 1;
+        let (ca, cb) = (&a.0.circuit, &b.0.circuit);
+        if same_vertices(*ca, *cb) {
+            // Two triangles of one circuit, or one triangle queued again: the same time, perturbed or not.
+            self.ties += 1;
             return Ordering::Equal;
         }
-        self.compared_exactly += 1;
-        let exact = &mut self.exact;
-        let mut quotient = |event: &Event<FilteredTime>| -> Quotient<Dyadic> {
-            let compute = || {
-                let quotient = exact.quotient(event.circuit);
-                Box::new(quotient.expect("only events with positive D are queued"))
-            };
-            (**event.time.exact.get_or_init(compute)).clone()
-        };
-        let (qa, qb) = (quotient(a), quotient(b));
-        self.exact
-            .compare_quotients((a.circuit, &qa), (b.circuit, &qb))
+        let (i, j) = (self.exactly(a), self.exactly(b));
+        if let (Exactly::Integers(qa), Exactly::Integers(qb)) =
+            (&self.quotients[i], &self.quotients[j])
+        {
+            let (qa, qb) = (*qa, *qb);
+            if let Some(order) = self.compare_integers((ca, qa), (cb, qb)) {
+                return order;
+            }
+        }
+        let (i, j) = (self.big(a), self.big(b));
+        match (&self.quotients[i], &self.quotients[j]) {
+            (Exactly::Big(qa), Exactly::Big(qb)) => {
+                self.exact.compare_quotients((*ca, qa), (*cb, qb))
+            }
+            _ => unreachable!("both quotients have just been computed in numbers of any size"),
+        }
     }
 
     fn undecided(&self) -> Undecided {
+        let exact = self.exact.undecided();
         Undecided {
             compared_exactly: self.compared_exactly,
-            ..self.exact.undecided()
+            ties: self.ties + exact.ties,
+            ..exact
         }
     }
 }
 
-/// The middle and the half width of an interval that contains −N/D, for D certainly positive.
-fn enclosure(n: &Approx, d: &Approx) -> (f64, f64) {
+/// An interval that contains −N/D, for D certainly positive.
+#[inline]
+fn enclosure(n: &Approx, d: &Approx) -> Enclosure {
     let (e, g) = (n.error(), d.error());
     let middle = -n.value() / d.value();
     let slope = (e + (middle.abs() + f64::MIN_POSITIVE) * g) / (d.value() - g);
     let width =
         slope * (1.0 + 16.0 * f64::EPSILON) + middle.abs() * f64::EPSILON + f64::MIN_POSITIVE;
-    (middle, width)
+    Enclosure { middle, width }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicate::DoublePoints;
+    use crate::number::Exact;
+    use crate::predicate::{DoublePoints, formula};
+    use crate::recover::flips::event::Event;
     use num_rational::BigRational;
     use num_traits::Signed;
     use proptest::prelude::*;
@@ -182,11 +267,12 @@ mod tests {
             let points = DoublePoints::new(p);
             let is_left = |v: VertexId| v.0.is_multiple_of(2);
             let frame = [5, 6, 7].map(VertexId);
-            let mut filtered = FilteredTimes::new(&points, frame, &is_left);
-            let mut exact = ExactTimes::<_, Dyadic>::new(&points, frame, &is_left);
-            let mut rational = ExactTimes::<_, BigRational>::new(&points, frame, &is_left);
+            let motion = Motion::new(&points, frame, &is_left);
+            let mut filtered = FilteredTimes::new(&motion);
+            let mut exact = ExactTimes::<_, Dyadic>::new(&motion);
+            let mut rational = ExactTimes::<_, BigRational>::new(&motion);
             let mut events = Vec::new();
-            for (arrival, skip) in (0..6u32).enumerate() {
+            for skip in 0..6u32 {
                 let left_out = |&i: &u32| i != skip;
                 let circuit: Vec<VertexId> = (0..6).filter(left_out).map(VertexId).collect();
                 let circuit: [VertexId; 5] = circuit.try_into().expect("five of six");
@@ -194,18 +280,36 @@ mod tests {
                 prop_assert_eq!(f.is_some(), e.is_some());
                 prop_assert_eq!(f.is_some(), r.is_some());
                 let (Some(f), Some(e), Some(r)) = (f, e, r) else { continue };
-                if f.width.is_finite() && f.middle.is_finite() {
-                    let (n, d) = r.parts();
-                    let middle = <BigRational as Number>::from_f64(f.middle);
-                    let distance = (-n / d - middle).abs();
-                    prop_assert!(distance <= <BigRational as Number>::from_f64(f.width));
+                let Enclosure { middle, width } = f.key;
+                let (n, d) = r.time.parts();
+                if width.is_finite() && middle.is_finite() {
+                    let rational = <BigRational as Number>::from_f64;
+                    let distance = (-n / d - rational(middle)).abs();
+                    prop_assert!(distance <= rational(width));
                 }
-                let event = |time| Event { circuit, tet: crate::mesh::TetId(0), time, arrival: arrival as u64 };
-                events.push((event(f), Event { circuit, tet: crate::mesh::TetId(0), time: e, arrival: 0 }));
+                if let Some(place) = f.time.0.get().checked_sub(1)
+                    && let Exactly::Integers([fn_, fd]) = filtered.quotients[place as usize]
+                {
+                    let (fn_, fd) = (BigRational::from_integer(fn_.into()), BigRational::from_integer(fd.into()));
+                    let g = <BigRational as Number>::from_f64(2f64.powi(points.grid().expect("a grid")));
+                    prop_assert_eq!(&(fn_ * g.pow(5)), n);
+                    prop_assert_eq!(&(fd * g.pow(6)), d);
+                }
+                let coefficients = formula::circuit(
+                    circuit.map(|v| points.coordinates::<Dyadic>(v)).each_ref()
+                ).0;
+                for (sign, c) in f.signs.iter().zip(&coefficients[1..4]) {
+                    prop_assert!(sign.is_none_or(|s| s == c.exact_sign()));
+                }
+                let event = Event { circuit, tet: crate::mesh::TetId(0), signs: [None; 3] };
+                events.push((event, f, e));
             }
-            for (fa, ea) in &events {
-                for (fb, eb) in &events {
-                    prop_assert_eq!(filtered.compare(fa, fb), exact.compare(ea, eb));
+            for (a, fa, ea) in &events {
+                for (b, fb, eb) in &events {
+                    let known = FilteredTimes::<DoublePoints>::compare_keys(fa.key, fb.key);
+                    let order = exact.compare((a, &ea.time), (b, &eb.time));
+                    prop_assert!(known.is_none_or(|o| o == order));
+                    prop_assert_eq!(filtered.compare((a, &fa.time), (b, &fb.time)), order);
                 }
             }
         }

@@ -5,26 +5,31 @@
 //! counted; or exact quotients with the perturbation of the weights, which need no patch.
 
 mod event;
+mod filter;
 mod filtered;
+mod motion;
 mod moves;
 mod queue;
+mod rounded;
 mod time;
 mod watch;
 
 pub use event::Event;
-pub use filtered::{FilteredTime, FilteredTimes};
+pub use filtered::{Enclosure, FilteredTime, FilteredTimes};
+pub use motion::{LeftVertices, Motion, VertexNumbers};
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
-pub use time::{
-    ExactTimes, FlipTimes, Float, LeftVertices, Quotient, RoundedTimes, Timed, Undecided,
-};
+pub use rounded::RoundedTimes;
+pub use time::{ExactTimes, FlipTimes, Float, Quotient, Timed, Timing, Undecided};
 pub use watch::{Fate, Watch};
 
 use super::region::Region;
+use super::scratch::Table;
 use super::side::{Side, Sides};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
+use crate::number::Sign;
 use crate::predicate::PointStore;
-use rustc_hash::FxHashSet;
+use arrayvec::ArrayVec;
 use serde::Serialize;
 
 /// What the flips of one or several insertions were.
@@ -51,10 +56,14 @@ pub struct FlipCounts {
     pub non_crossing: u64,
     /// Flip times discarded because the rounded quotient was not finite.
     pub overflows: u64,
-    /// Comparisons that float enclosures left to exact quotients; filtered times only.
+    /// Comparisons of times in the queue.
+    pub comparisons: u64,
+    /// Of those, left by float enclosures to exact quotients; filtered times only.
     pub compared_exactly: u64,
-    /// Comparisons that two equal times left to the perturbation; exact times only.
+    /// Of those, left by equal quotients to the perturbation; exact times only.
     pub ties: u64,
+    /// Events whose quotient was computed in exact numbers of any size; exact times only.
+    pub big_quotients: u64,
 }
 
 impl FlipCounts {
@@ -75,8 +84,10 @@ impl FlipCounts {
         self.discarded_outside += other.discarded_outside;
         self.non_crossing += other.non_crossing;
         self.overflows += other.overflows;
+        self.comparisons += other.comparisons;
         self.compared_exactly += other.compared_exactly;
         self.ties += other.ties;
+        self.big_quotients += other.big_quotients;
     }
 }
 
@@ -95,29 +106,42 @@ pub enum FlipOutcome {
     Impossible,
 }
 
+/// The tetrahedra that a flip created.
+type Created = ArrayVec<TetId, 4>;
+
 /// The insertion of one missing region of a polygon.
 pub struct FlipInsertion<'a, P, C: FlipTimes> {
     mesh: &'a mut TetMesh,
     sides: &'a Sides<'a, P>,
     times: C,
-    queue: FlipQueue<C::Time>,
-    /// The tetrahedra that fill R now.
-    region: FxHashSet<TetId>,
+    queue: FlipQueue<C>,
+    /// Which tetrahedra fill R now.
+    region: &'a mut Table<bool>,
     /// The list L of §3.3.
-    postponed: Vec<Event<C::Time>>,
+    postponed: Vec<Event>,
     counts: FlipCounts,
     watch: Option<&'a mut dyn Watch>,
 }
 
 impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
-    /// Prepares the insertion into `region`.
-    pub fn new(mesh: &'a mut TetMesh, sides: &'a Sides<'a, P>, region: &Region, times: C) -> Self {
+    /// Prepares the insertion into `region`. `marks` is a table for marking tetrahedra, kept from region to region.
+    pub fn new(
+        mesh: &'a mut TetMesh,
+        sides: &'a Sides<'a, P>,
+        region: &Region,
+        times: C,
+        marks: &'a mut Table<bool>,
+    ) -> Self {
+        marks.clear();
+        for t in &region.tets {
+            marks.set(t.index(), true);
+        }
         FlipInsertion {
             mesh,
             sides,
             times,
-            queue: FlipQueue::default(),
-            region: region.tets.iter().copied().collect(),
+            queue: FlipQueue::earliest_first(),
+            region: marks,
             postponed: Vec::new(),
             counts: FlipCounts::default(),
             watch: None,
@@ -130,6 +154,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         self
     }
 
+    #[inline]
     fn tell(&mut self, circuit: [VertexId; 5], fate: Fate) {
         if let Some(watch) = &mut self.watch {
             watch.event(circuit, fate);
@@ -149,12 +174,12 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 self.tell(event.circuit, Fate::Stale);
                 continue;
             };
-            match self.flip(s) {
+            match self.flip(s, event.signs) {
                 Ok((kind, created)) => {
                     self.tell(event.circuit, Fate::Flipped(kind));
                     self.certify_around(&created);
                     if !C::EXACT {
-                        self.patch_after_flip(created);
+                        self.patch_after_flip(&created);
                     }
                 }
                 Err(refused) if C::EXACT => {
@@ -173,18 +198,22 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 }
             }
         }
-        let mut tets: Vec<TetId> = self.region.into_iter().collect();
-        tets.sort_unstable();
-        let crossing = tets
-            .iter()
-            .filter(|&&t| self.sides.crosses_tet(self.mesh, t))
-            .count();
+        self.finish(outcome)
+    }
+
+    fn finish(mut self, mut outcome: FlipOutcome) -> (FlipOutcome, Vec<TetId>, FlipCounts) {
+        let tets: Vec<TetId> = self.region.ids().into_iter().map(TetId).collect();
+        let crosses = |&&t: &&TetId| self.sides.crosses_tet(self.mesh, t);
+        let crossing = tets.iter().filter(crosses).count();
         if crossing > 0 && outcome == FlipOutcome::Done {
             outcome = FlipOutcome::Stuck { crossing };
         }
         let undecided = self.times.undecided();
+        self.counts.queued = self.queue.arrived();
+        self.counts.comparisons = self.queue.comparisons();
         self.counts.compared_exactly = undecided.compared_exactly;
         self.counts.ties = undecided.ties;
+        self.counts.big_quotients = undecided.big_quotients;
         self.counts.overflows = undecided.overflows;
         if let Some(watch) = self.watch {
             let vertices: Vec<_> = tets.iter().map(|&t| self.mesh.vertices(t)).collect();
@@ -196,16 +225,13 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     /// Certify of Fig. 7: queues the crossing triangle opposite corner `s` if it must be flipped at some time.
     fn certify(&mut self, s: Corner) {
         let circuit = event::circuit(self.mesh, s);
-        if let Some(time) = self.times.time(circuit) {
-            let arrival = self.counts.queued;
-            self.counts.queued += 1;
+        if let Some(timing) = self.times.time(circuit) {
             let event = Event {
                 circuit,
                 tet: s.tet(),
-                time,
-                arrival,
+                signs: timing.signs,
             };
-            self.queue.push(&mut self.times, event);
+            self.queue.push(&mut self.times, event, timing);
         }
     }
 
@@ -222,7 +248,8 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 let s = t.corner(slot);
                 let n = self.mesh.neighbor(s);
                 let boundary = !created.contains(&n) || (two_flips && s < self.mesh.twin(s));
-                if boundary && self.region.contains(&n) && self.sides.crosses(&self.mesh.facet(s)) {
+                if boundary && self.sides.crosses(&self.mesh.facet(s)) && self.region.get(n.index())
+                {
                     self.certify(s);
                 }
             }
@@ -230,17 +257,23 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     }
 
     /// Flip of Fig. 7: the flip that removes the triangle opposite corner `s`. Returns the new tetrahedra.
-    fn flip(&mut self, s: Corner) -> Result<(FlipKind, Vec<TetId>), Refused> {
-        let flip =
-            flip_of_triangle(self.sides.points(), self.mesh, s).ok_or(Refused::Impossible)?;
-        if !flip.old.iter().all(|t| self.region.contains(t)) {
+    fn flip(
+        &mut self,
+        s: Corner,
+        signs: [Option<Sign>; 3],
+    ) -> Result<(FlipKind, Created), Refused> {
+        let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs)
+            .ok_or(Refused::Impossible)?;
+        if !flip.old.iter().all(|t| self.region.get(t.index())) {
             return Err(Refused::OutsideRegion);
         }
         for t in &flip.old {
-            self.region.remove(t);
+            self.region.reset(t.index());
         }
-        let created = self.mesh.replace(&flip.old, &flip.new);
-        self.region.extend(&created);
+        let created = self.mesh.replace_few(&flip.old, &flip.new);
+        for t in &created {
+            self.region.set(t.index(), true);
+        }
         match flip.kind {
             FlipKind::TwoThree => self.counts.two_three += 1,
             FlipKind::ThreeTwo => self.counts.three_two += 1,
@@ -250,7 +283,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     }
 
     /// The second and third patch of §3.3, for rounded times, after a flip that created `created`.
-    fn patch_after_flip(&mut self, created: Vec<TetId>) {
+    fn patch_after_flip(&mut self, created: &[TetId]) {
         self.restore_non_crossing(created);
         let mut progress = true;
         while progress {
@@ -259,12 +292,12 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 let Some(s) = event.corner_if_alive(self.mesh) else {
                     continue;
                 };
-                match self.flip(s) {
+                match self.flip(s, event.signs) {
                     Ok((kind, created)) => {
                         self.counts.performed_from_list += 1;
                         self.tell(event.circuit, Fate::FlippedFromList(kind));
                         self.certify_around(&created);
-                        self.restore_non_crossing(created);
+                        self.restore_non_crossing(&created);
                         progress = true;
                     }
                     Err(Refused::OutsideRegion) => self.counts.discarded_outside += 1,
@@ -276,10 +309,14 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
 
     /// The second patch: makes the triangles between non-crossing tetrahedra of R locally Delaunay, starting with those
     /// of `created`. (Lawson's algorithm; it can get stuck, and then leaves the triangle.)
-    fn restore_non_crossing(&mut self, created: Vec<TetId>) {
-        let mut pending = created;
+    fn restore_non_crossing(&mut self, created: &[TetId]) {
+        let non_crossing = |t: &&TetId| !self.sides.crosses_tet(self.mesh, **t);
+        if created.iter().find(non_crossing).is_none() {
+            return;
+        }
+        let mut pending: Vec<TetId> = created.to_vec();
         while let Some(t) = pending.pop() {
-            if !self.region.contains(&t) || self.sides.crosses_tet(self.mesh, t) {
+            if !self.region.get(t.index()) || self.sides.crosses_tet(self.mesh, t) {
                 continue;
             }
             let bad = (0..4)
@@ -287,7 +324,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 .find(|&s| self.is_bad_non_crossing(s));
             let Some(s) = bad else { continue };
             let circuit = event::circuit(self.mesh, s);
-            if let Ok((kind, created)) = self.flip(s) {
+            if let Ok((kind, created)) = self.flip(s, [None; 3]) {
                 self.tell(circuit, Fate::FlippedNonCrossing(kind));
                 self.counts.non_crossing += 1;
                 self.certify_around(&created);
@@ -300,14 +337,14 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     fn is_bad_non_crossing(&self, s: Corner) -> bool {
         let n = self.mesh.neighbor(s);
         let facet = self.mesh.facet(s);
-        if !self.region.contains(&n)
+        if !self.region.get(n.index())
             || self.sides.crosses_tet(self.mesh, n)
             || facet.iter().all(|&v| self.sides.of(v) == Side::On)
         {
             return false;
         }
-        let [v, x, y, z, w] = event::circuit(self.mesh, s);
-        self.sides.points().insphere([v, x, y, z, w]).is_positive()
+        let circuit = event::circuit(self.mesh, s);
+        self.sides.points().insphere(circuit).is_positive()
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::number::Sign;
 use crate::predicate::PointStore;
+use arrayvec::ArrayVec;
 
 /// The three kinds of flip.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,9 +23,9 @@ pub struct Flip {
     /// Which kind.
     pub kind: FlipKind,
     /// To be removed.
-    pub old: Vec<TetId>,
+    pub old: ArrayVec<TetId, 4>,
     /// To be created, positively oriented.
-    pub new: Vec<[VertexId; 4]>,
+    pub new: ArrayVec<[VertexId; 4], 4>,
 }
 
 /// The flip that removes the triangle xyz opposite corner `c`, between vxyz and wxzy, or `None` if there is none: the
@@ -33,21 +34,30 @@ pub struct Flip {
 /// The line vw passes inside the edge opposite x of the triangle iff vwyz, which has w in place of x, is positive. If it
 /// passes inside all three edges: 2-3. If it passes outside of one, that edge is reflex: 3-2, if it has three
 /// tetrahedra. If it meets one edge, v, w and the edge are coplanar: 4-4, if it has four tetrahedra.
-pub fn flip_of_triangle<P: PointStore>(points: &P, mesh: &TetMesh, c: Corner) -> Option<Flip> {
+///
+/// `signs` are those of the circuit's coefficients c_x, c_y, c_z, where they are known; c_x = −orient3d(v, w, y, z).
+pub fn flip_of_triangle<P: PointStore>(
+    points: &P,
+    mesh: &TetMesh,
+    c: Corner,
+    signs: [Option<Sign>; 3],
+) -> Option<Flip> {
     let (t1, t2) = (c.tet(), mesh.neighbor(c));
     let v = mesh.vertex(c);
     let [x, y, z] = mesh.facet(c);
     let w = mesh.apex_across(c);
     let around_new_edge = [[v, w, y, z], [v, x, w, z], [v, x, y, w]];
-    let inside = around_new_edge.map(|tet| points.orient3d(tet));
-    let positive: Vec<[VertexId; 4]> = (0..3)
+    let inside =
+        [0, 1, 2].map(|i| signs[i].map_or_else(|| points.orient3d(around_new_edge[i]), |s| -s));
+    let positive: ArrayVec<[VertexId; 4], 4> = (0..3)
         .filter(|&i| inside[i].is_positive())
         .map(|i| around_new_edge[i])
         .collect();
+    let old = |tets: &[TetId]| tets.iter().copied().collect();
     if positive.len() == 3 {
         return Some(Flip {
             kind: FlipKind::TwoThree,
-            old: vec![t1, t2],
+            old: old(&[t1, t2]),
             new: positive,
         });
     }
@@ -68,7 +78,7 @@ pub fn flip_of_triangle<P: PointStore>(points: &P, mesh: &TetMesh, c: Corner) ->
         // vpqr, wpqr and the third tetrahedron vwpq.
         return (behind1.tet() == behind2.tet()).then(|| Flip {
             kind: FlipKind::ThreeTwo,
-            old: vec![t1, t2, behind1.tet()],
+            old: old(&[t1, t2, behind1.tet()]),
             new: positive,
         });
     }
@@ -78,8 +88,8 @@ pub fn flip_of_triangle<P: PointStore>(points: &P, mesh: &TetMesh, c: Corner) ->
     let four_around_edge = mesh.vertex(behind2) == u && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
     (four_around_edge && !u.is_infinite()).then(|| Flip {
         kind: FlipKind::FourFour,
-        old: vec![t1, t2, t3, t4],
+        old: old(&[t1, t2, t3, t4]),
         // vpqr is positive, so vqpu is; w takes the place of p, then of q.
-        new: vec![positive[0], positive[1], [v, q, w, u], [v, w, p, u]],
+        new: ArrayVec::from([positive[0], positive[1], [v, q, w, u], [v, w, p, u]]),
     })
 }

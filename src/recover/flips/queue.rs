@@ -1,89 +1,159 @@
 //! The priority queue of flips: a binary heap whose order is asked from a [`FlipTimes`], so that a comparison may use
 //! the point store and compute what it needs.
+//!
+//! The heap moves keys and the numbers of events; the events stay where they are until they come off the queue.
 
 use super::event::Event;
-use super::time::FlipTimes;
+use super::time::{FlipTimes, Timing};
 use std::cmp::Ordering;
 
-/// Events, the earliest first.
-pub struct FlipQueue<T> {
-    heap: Vec<Event<T>>,
+/// Events, the earliest first or the latest first.
+pub struct FlipQueue<C: FlipTimes> {
+    heap: Vec<Entry<C::Key>>,
+    events: Vec<Queued<C::Time>>,
+    /// Places in `events` to be used again.
+    free: Vec<u32>,
+    latest_first: bool,
+    /// How many events have ever been queued.
+    arrived: u64,
+    comparisons: u64,
 }
 
-impl<T> Default for FlipQueue<T> {
-    fn default() -> Self {
-        FlipQueue { heap: Vec::new() }
-    }
+#[derive(Clone, Copy)]
+struct Entry<K> {
+    key: K,
+    event: u32,
 }
 
-impl<T> FlipQueue<T> {
-    /// The number of events.
-    pub fn len(&self) -> usize {
-        self.heap.len()
+struct Queued<T> {
+    event: Event,
+    time: T,
+    /// When it was queued, for ties.
+    arrival: u64,
+}
+
+impl<C: FlipTimes> FlipQueue<C> {
+    /// An empty queue, which gives the earliest event first: that of an insertion.
+    pub fn earliest_first() -> Self {
+        FlipQueue {
+            heap: Vec::new(),
+            events: Vec::new(),
+            free: Vec::new(),
+            latest_first: false,
+            arrived: 0,
+            comparisons: 0,
+        }
     }
 
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.heap.is_empty()
+    /// An empty queue, which gives the latest event first: that of a deletion.
+    pub fn latest_first() -> Self {
+        FlipQueue {
+            latest_first: true,
+            ..FlipQueue::earliest_first()
+        }
+    }
+
+    /// The number of events that have been queued so far.
+    pub fn arrived(&self) -> u64 {
+        self.arrived
+    }
+
+    /// The number of comparisons so far.
+    pub fn comparisons(&self) -> u64 {
+        self.comparisons
     }
 
     /// Inserts an event. O(log n) comparisons.
-    pub fn push<C: FlipTimes<Time = T>>(&mut self, times: &mut C, event: Event<T>) {
-        self.heap.push(event);
-        self.sift_up(times, self.heap.len() - 1);
+    pub fn push(&mut self, times: &mut C, event: Event, timing: Timing<C::Key, C::Time>) {
+        let queued = Queued {
+            event,
+            time: timing.time,
+            arrival: self.arrived,
+        };
+        self.arrived += 1;
+        let place = match self.free.pop() {
+            Some(place) => {
+                self.events[place as usize] = queued;
+                place
+            }
+            None => {
+                self.events.push(queued);
+                u32::try_from(self.events.len() - 1).expect("fewer than 2^32 events")
+            }
+        };
+        let entry = Entry {
+            key: timing.key,
+            event: place,
+        };
+        self.heap.push(entry);
+        self.sift_up(times, self.heap.len() - 1, entry);
     }
 
-    /// Removes the earliest event. About log₂ n comparisons: the hole at the top sinks to a leaf along the earlier
+    /// Removes the first event. About log₂ n comparisons: the hole at the top sinks to a leaf along the earlier
     /// children, and the last event rises from there, usually not far (Floyd's variant; comparisons are what costs).
-    pub fn pop<C: FlipTimes<Time = T>>(&mut self, times: &mut C) -> Option<Event<T>> {
-        if self.heap.is_empty() {
-            return None;
+    pub fn pop(&mut self, times: &mut C) -> Option<Event> {
+        let first = self.heap.first()?.event;
+        let last = self.heap.pop().expect("the heap is not empty");
+        if !self.heap.is_empty() {
+            let hole = self.sink(times);
+            self.sift_up(times, hole, last);
         }
-        let first = self.heap.swap_remove(0);
+        self.free.push(first);
+        Some(self.events[first as usize].event)
+    }
+
+    /// Sinks a hole from the top to a leaf.
+    fn sink(&mut self, times: &mut C) -> usize {
+        let n = self.heap.len();
         let mut hole = 0;
         loop {
             let (left, right) = (2 * hole + 1, 2 * hole + 2);
-            if left >= self.heap.len() {
-                break;
+            if left >= n {
+                return hole;
             }
-            let earlier = if right < self.heap.len() && self.precedes(times, right, left) {
-                right
-            } else {
-                left
-            };
-            self.heap.swap(hole, earlier);
-            hole = earlier;
-        }
-        if hole < self.heap.len() {
-            self.sift_up(times, hole);
-        }
-        Some(first)
-    }
-
-    fn sift_up<C: FlipTimes<Time = T>>(&mut self, times: &mut C, mut child: usize) {
-        while child > 0 {
-            let parent = (child - 1) / 2;
-            if !self.precedes(times, child, parent) {
-                break;
-            }
-            self.heap.swap(child, parent);
-            child = parent;
+            let right_first = right < n && self.precedes(times, self.heap[right], self.heap[left]);
+            let child = if right_first { right } else { left };
+            self.heap[hole] = self.heap[child];
+            hole = child;
         }
     }
 
-    fn precedes<C: FlipTimes<Time = T>>(&self, times: &mut C, a: usize, b: usize) -> bool {
-        let (a, b) = (&self.heap[a], &self.heap[b]);
-        match times.compare(a, b) {
-            Ordering::Less => true,
-            Ordering::Greater => false,
-            Ordering::Equal => a.arrival < b.arrival,
+    /// Puts an entry into a hole or above it.
+    fn sift_up(&mut self, times: &mut C, mut hole: usize, entry: Entry<C::Key>) {
+        while hole > 0 {
+            let parent = (hole - 1) / 2;
+            if !self.precedes(times, entry, self.heap[parent]) {
+                break;
+            }
+            self.heap[hole] = self.heap[parent];
+            hole = parent;
         }
+        self.heap[hole] = entry;
+    }
+
+    #[inline]
+    fn precedes(&mut self, times: &mut C, a: Entry<C::Key>, b: Entry<C::Key>) -> bool {
+        self.comparisons += 1;
+        let order = C::compare_keys(a.key, b.key).unwrap_or_else(|| self.compare(times, a, b));
+        (order == Ordering::Less) != self.latest_first
+    }
+
+    /// Where the keys do not tell. Never `Equal`: in the end the arrival decides.
+    #[cold]
+    fn compare(&self, times: &mut C, a: Entry<C::Key>, b: Entry<C::Key>) -> Ordering {
+        let (a, b) = (
+            &self.events[a.event as usize],
+            &self.events[b.event as usize],
+        );
+        times
+            .compare((&a.event, &a.time), (&b.event, &b.time))
+            .then(a.arrival.cmp(&b.arrival))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::time::Undecided;
+    use super::super::time::{Timed, Undecided};
     use super::*;
     use crate::mesh::{TetId, VertexId};
 
@@ -91,36 +161,66 @@ mod tests {
     struct Integers;
 
     impl FlipTimes for Integers {
-        type Time = i32;
+        type Key = i32;
+        type Time = ();
         const EXACT: bool = true;
-        fn time(&mut self, _: [VertexId; 5]) -> Option<i32> {
+        fn time(&mut self, _: [VertexId; 5]) -> Option<Timing<i32, ()>> {
             None
         }
-        fn compare(&mut self, a: &Event<i32>, b: &Event<i32>) -> Ordering {
-            a.time.cmp(&b.time)
+        fn compare_keys(a: i32, b: i32) -> Option<Ordering> {
+            Some(a.cmp(&b)).filter(|o| o.is_ne())
+        }
+        fn compare(&mut self, _: Timed<()>, _: Timed<()>) -> Ordering {
+            Ordering::Equal
         }
         fn undecided(&self) -> Undecided {
             Undecided::default()
         }
     }
 
-    #[test]
-    fn events_come_in_order_of_time_then_of_arrival() {
-        let mut queue = FlipQueue::default();
-        for arrival in 0..200u64 {
+    /// The (time, arrival) of 200 events, many at the same time, as they come off a queue.
+    fn sorted_by(mut queue: FlipQueue<Integers>) -> Vec<(i32, u32)> {
+        let time = |arrival: u32| (arrival * 37 % 41) as i32;
+        let push = |queue: &mut FlipQueue<Integers>, arrival| {
             let event = Event {
                 circuit: [VertexId(0); 5],
-                tet: TetId(0),
-                time: (arrival * 37 % 41) as i32,
-                arrival,
+                tet: TetId(arrival),
+                signs: [None; 3],
             };
-            queue.push(&mut Integers, event);
+            let timing = Timing {
+                key: time(arrival),
+                time: (),
+                signs: [None; 3],
+            };
+            queue.push(&mut Integers, event, timing);
+        };
+        for arrival in 0..300 {
+            push(&mut queue, arrival);
+        }
+        // Places are used again.
+        for arrival in 300..500 {
+            let first = queue.pop(&mut Integers).expect("300 events");
+            push(&mut queue, arrival);
+            assert!(first.tet.0 < arrival);
         }
         let mut order = Vec::new();
         while let Some(event) = queue.pop(&mut Integers) {
-            order.push((event.time, event.arrival));
+            order.push((time(event.tet.0), event.tet.0));
         }
-        assert_eq!(order.len(), 200);
+        order
+    }
+
+    #[test]
+    fn events_come_in_order_of_time_then_of_arrival() {
+        let order = sorted_by(FlipQueue::earliest_first());
+        assert_eq!(order.len(), 300);
         assert!(order.is_sorted());
+    }
+
+    #[test]
+    fn the_latest_come_first_if_asked() {
+        let order = sorted_by(FlipQueue::latest_first());
+        assert_eq!(order.len(), 300);
+        assert!(order.is_sorted_by(|a, b| b <= a));
     }
 }

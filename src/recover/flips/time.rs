@@ -21,23 +21,30 @@
 //! up to a factor, which happens only for two triangles of one 4-to-4 flip: they are one event.
 
 use super::event::Event;
+use super::filter::Filter;
+use super::motion::{Motion, Rates};
 use crate::mesh::VertexId;
-use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
-use crate::predicate::{PointStore, formula};
-use rustc_hash::FxHashMap;
+use crate::number::{Exact, Number, Sign};
+use crate::predicate::PointStore;
 use std::cmp::Ordering;
 
 /// A way to compute and to compare flip times.
 pub trait FlipTimes {
-    /// The time of one flip, or what is needed to compare it.
+    /// The part of a time that the queue moves around: enough for most comparisons.
+    type Key: Copy;
+
+    /// The rest of it.
     type Time;
 
     /// The time at which the triangle xyz between vxyz and wxzy must be flipped; `None` if it never must, or if the
     /// number type cannot hold the time.
-    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Self::Time>;
+    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<Self::Key, Self::Time>>;
 
-    /// Which of two events comes first. `Equal` means: in any order.
-    fn compare(&mut self, a: &Event<Self::Time>, b: &Event<Self::Time>) -> Ordering;
+    /// Which of two times comes first, as far as the keys tell.
+    fn compare_keys(a: Self::Key, b: Self::Key) -> Option<Ordering>;
+
+    /// Which of two events comes first, where the keys do not tell. `Equal` means: in any order.
+    fn compare(&mut self, a: Timed<Self::Time>, b: Timed<Self::Time>) -> Ordering;
 
     /// What the number type did not decide by itself.
     fn undecided(&self) -> Undecided;
@@ -46,6 +53,20 @@ pub trait FlipTimes {
     const EXACT: bool;
 }
 
+/// A flip time, and what was learned about the flip on the way.
+#[derive(Clone, Debug)]
+pub struct Timing<K, T> {
+    /// For most comparisons.
+    pub key: K,
+    /// For the others.
+    pub time: T,
+    /// The signs of c_x, c_y, c_z, where they are known.
+    pub signs: [Option<Sign>; 3],
+}
+
+/// An event and its time, to be compared.
+pub type Timed<'t, T> = (&'t Event, &'t T);
+
 /// Counts of what a number type did not decide by itself.
 #[derive(Clone, Copy, Default, Debug)]
 pub struct Undecided {
@@ -53,22 +74,10 @@ pub struct Undecided {
     pub compared_exactly: u64,
     /// Comparisons that exact quotients left to the perturbation.
     pub ties: u64,
+    /// Events whose exact quotient had to be computed in numbers of any size.
+    pub big_quotients: u64,
     /// Times discarded because a rounded quotient was not finite.
     pub overflows: u64,
-}
-
-/// Tells the left vertices of a polygon.
-pub type LeftVertices<'a> = &'a dyn Fn(VertexId) -> bool;
-
-/// N and D of S(τ) = N + τ·D, from the five points and their rates d.
-fn numerator_and_denominator<N: Number>(p: &[Vec3<N>; 5], rates: &[N; 5]) -> (N, N) {
-    let (c, q) = formula::circuit(p.each_ref());
-    let lift = [0, 1, 2, 3].map(|i: usize| q[i].dot(&q[i]));
-    let rate = [0, 1, 2, 3].map(|i: usize| rates[i].clone() - &rates[4]);
-    (
-        formula::orient4d(&c, lift.each_ref()),
-        formula::orient4d(&c, rate.each_ref()),
-    )
 }
 
 /// Whether two circuits have the same five vertices.
@@ -78,82 +87,144 @@ pub(super) fn same_vertices(mut a: [VertexId; 5], mut b: [VertexId; 5]) -> bool 
     a == b
 }
 
-/// The rates d_v of the vertices of one region, each computed once.
-pub(super) struct Rates<'a, P, N> {
-    points: &'a P,
-    frame: [VertexId; 3],
-    is_left: LeftVertices<'a>,
-    known: FxHashMap<VertexId, N>,
+/// The time −N/D as an unevaluated quotient: comparison needs no division.
+#[derive(Clone, Debug)]
+pub struct Quotient<N> {
+    numerator: N,
+    denominator: N,
 }
 
-impl<'a, P: PointStore, N: Number> Rates<'a, P, N> {
-    pub(super) fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
-        Rates {
-            points,
-            frame,
-            is_left,
-            known: FxHashMap::default(),
-        }
-    }
-
-    fn of(&mut self, v: VertexId) -> N {
-        if !(self.is_left)(v) {
-            return N::from_f64(0.0);
-        }
-        if let Some(rate) = self.known.get(&v) {
-            return rate.clone();
-        }
-        let [a, b, c] = self.frame;
-        let p = [a, b, c, v].map(|v| self.points.coordinates::<N>(v));
-        let rate = formula::orient3d(p.each_ref());
-        self.known.insert(v, rate.clone());
-        rate
-    }
-
-    /// N and D of a circuit.
-    pub(super) fn evaluate(&mut self, circuit: [VertexId; 5]) -> (N, N) {
-        let p = circuit.map(|v| self.points.coordinates::<N>(v));
-        let rates = circuit.map(|v| self.of(v));
-        numerator_and_denominator(&p, &rates)
+impl<N> Quotient<N> {
+    /// N and D.
+    pub fn parts(&self) -> (&N, &N) {
+        (&self.numerator, &self.denominator)
     }
 }
 
-/// The sign of D, exact: filtered, then dyadic. The paper's own Orient4D is exact in every mode.
-struct DenominatorSign<'a, P> {
-    filter: Rates<'a, P, Approx>,
-    exact: Rates<'a, P, Dyadic>,
-}
-
-impl<'a, P: PointStore> DenominatorSign<'a, P> {
-    fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
-        DenominatorSign {
-            filter: Rates::new(points, frame, is_left),
-            exact: Rates::new(points, frame, is_left),
-        }
-    }
-
-    fn of(&mut self, circuit: [VertexId; 5]) -> Sign {
-        let (_, d) = self.filter.evaluate(circuit);
-        d.sign()
-            .unwrap_or_else(|| self.exact.evaluate(circuit).1.exact_sign())
-    }
-}
-
-/// Times as rounded quotients, ties in order of arrival: the paper's own method, which can fail.
-pub struct RoundedTimes<'a, P, N> {
-    denominator: DenominatorSign<'a, P>,
+/// Times in exact numbers, ties decided by the perturbation of the weights.
+pub struct ExactTimes<'a, P, N> {
+    filter: Filter<'a, P>,
     rates: Rates<'a, P, N>,
-    /// Times discarded because the quotient was not finite.
-    overflows: u64,
+    /// Comparisons that the quotients did not decide, so that the perturbation had to.
+    ties: u64,
+    big_quotients: u64,
 }
 
-impl<'a, P: PointStore, N: Number> RoundedTimes<'a, P, N> {
-    /// For the polygon with the given frame; `is_left` tells the left vertices.
-    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
-        RoundedTimes {
-            denominator: DenominatorSign::new(points, frame, is_left),
-            rates: Rates::new(points, frame, is_left),
-            overflows: 0,
+impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
+    /// For the given motion.
+    pub fn new(motion: &'a Motion<'a, P>) -> Self {
+        ExactTimes {
+            filter: Filter::new(motion),
+            rates: Rates::new(motion),
+            ties: 0,
+            big_quotients: 0,
+        }
+    }
+
+    /// N and D, if D > 0: the sign of D is found in floats if they are certain of it.
+    pub fn quotient(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
+        self.filter.evaluate(circuit)?;
+        self.exact_quotient(circuit)
+    }
+
+    /// N and D, if D > 0.
+    pub(super) fn exact_quotient(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
+        self.big_quotients += 1;
+        let (numerator, denominator) = self.rates.evaluate(circuit);
+        denominator.exact_sign().is_positive().then_some(Quotient {
+            numerator,
+            denominator,
+        })
+    }
+
+    /// Which of two events, given by circuit and quotient, comes first: the sign of t_0, then the perturbation.
+    pub fn compare_quotients(
+        &mut self,
+        a: ([VertexId; 5], &Quotient<N>),
+        b: ([VertexId; 5], &Quotient<N>),
+    ) -> Ordering {
+        let ab = a.1.numerator.clone() * &b.1.denominator;
+        let ba = b.1.numerator.clone() * &a.1.denominator;
+        match (ab - &ba).exact_sign() {
+            Sign::Positive => return Ordering::Less,
+            Sign::Negative => return Ordering::Greater,
+            Sign::Zero => self.ties += 1,
+        }
+        let (ca, cb) = (self.rates.coefficients(a.0), self.rates.coefficients(b.0));
+        let points = self.rates.motion.points;
+        compare_perturbed(points, a.0, b.0, |i, j| {
+            let zero = N::from_f64(0.0);
+            let of_a = i.map_or(zero.clone(), |i| ca[i].clone() * &b.1.denominator);
+            let of_b = j.map_or(zero, |j| cb[j].clone() * &a.1.denominator);
+            (of_a - &of_b).exact_sign()
+        })
+    }
+}
+
+/// The signs of t_v for the vertices of both circuits, in ε order, until one is not zero. `term` gives the sign of t_v for
+/// the vertex at place i of circuit a, if any, and at place j of circuit b, if any.
+pub(super) fn compare_perturbed<P: PointStore>(
+    points: &P,
+    a: [VertexId; 5],
+    b: [VertexId; 5],
+    mut term: impl FnMut(Option<usize>, Option<usize>) -> Sign,
+) -> Ordering {
+    let in_order = |circuit: [VertexId; 5]| {
+        let mut places = [0, 1, 2, 3, 4].map(|i| (points.identity(circuit[i]), i));
+        places.sort_unstable();
+        places
+    };
+    let (pa, pb) = (in_order(a), in_order(b));
+    let (mut i, mut j) = (0, 0);
+    while i < 5 || j < 5 {
+        let (va, vb) = (pa.get(i), pb.get(j));
+        let first = va
+            .map_or(u32::MAX, |v| v.0)
+            .min(vb.map_or(u32::MAX, |v| v.0));
+        let at = |v: Option<&(u32, usize)>| v.filter(|v| v.0 == first).map(|v| v.1);
+        match term(at(va), at(vb)) {
+            Sign::Positive => return Ordering::Less,
+            Sign::Negative => return Ordering::Greater,
+            Sign::Zero => {}
+        }
+        i += usize::from(at(va).is_some());
+        j += usize::from(at(vb).is_some());
+    }
+    Ordering::Equal
+}
+
+impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
+    type Key = ();
+    type Time = Quotient<N>;
+    const EXACT: bool = true;
+
+    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<(), Quotient<N>>> {
+        let signs = self.filter.evaluate(circuit)?.signs;
+        let time = self.exact_quotient(circuit)?;
+        Some(Timing {
+            key: (),
+            time,
+            signs,
+        })
+    }
+
+    fn compare_keys((): (), (): ()) -> Option<Ordering> {
+        None
+    }
+
+    fn compare(&mut self, a: Timed<Quotient<N>>, b: Timed<Quotient<N>>) -> Ordering {
+        if same_vertices(a.0.circuit, b.0.circuit) {
+            // Two triangles of one circuit, or one triangle queued again: the same time, perturbed or not.
+            return Ordering::Equal;
+        }
+        self.compare_quotients((a.0.circuit, a.1), (b.0.circuit, b.1))
+    }
+
+    fn undecided(&self) -> Undecided {
+        Undecided {
+            ties: self.ties,
+            big_quotients: self.big_quotients,
+            ..Undecided::default()
         }
     }
 }
@@ -162,158 +233,31 @@ impl<'a, P: PointStore, N: Number> RoundedTimes<'a, P, N> {
 pub trait Float: Number {
     /// −n/d, rounded in this type.
     fn negated_quotient(n: &Self, d: &Self) -> Self;
+
+    /// The order of two quotients.
+    fn compare(&self, other: &Self) -> Ordering {
+        self.to_f64().total_cmp(&other.to_f64())
+    }
+
+    /// From what was computed in doubles, if this type is just that.
+    fn from_doubles(n: f64, d: f64) -> Option<(Self, Self)> {
+        let _ = (n, d);
+        None
+    }
 }
 
 impl Float for f64 {
     fn negated_quotient(n: &f64, d: &f64) -> f64 {
         -n / d
     }
+
+    fn from_doubles(n: f64, d: f64) -> Option<(f64, f64)> {
+        Some((n, d))
+    }
 }
 
 impl Float for f32 {
     fn negated_quotient(n: &f32, d: &f32) -> f32 {
         -n / d
-    }
-}
-
-impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
-    type Time = N;
-    const EXACT: bool = false;
-
-    fn time(&mut self, circuit: [VertexId; 5]) -> Option<N> {
-        if !self.denominator.of(circuit).is_positive() {
-            return None;
-        }
-        let (n, d) = self.rates.evaluate(circuit);
-        let time = N::negated_quotient(&n, &d);
-        if time.to_f64().is_finite() {
-            Some(time)
-        } else {
-            self.overflows += 1;
-            None
-        }
-    }
-
-    fn undecided(&self) -> Undecided {
-        Undecided {
-            overflows: self.overflows,
-            ..Undecided::default()
-        }
-    }
-
-    fn compare(&mut self, a: &Event<N>, b: &Event<N>) -> Ordering {
-        a.time.to_f64().total_cmp(&b.time.to_f64())
-    }
-}
-
-/// The time −N/D as an unevaluated quotient: comparison needs no division.
-#[derive(Clone, Debug)]
-pub struct Quotient<N> {
-    numerator: N,
-    denominator: N,
-}
-
-#[cfg(test)]
-impl<N> Quotient<N> {
-    /// N and D.
-    pub(super) fn parts(&self) -> (&N, &N) {
-        (&self.numerator, &self.denominator)
-    }
-}
-
-/// Times in exact numbers, ties decided by the perturbation of the weights.
-pub struct ExactTimes<'a, P, N> {
-    denominator: DenominatorSign<'a, P>,
-    rates: Rates<'a, P, N>,
-    /// Comparisons that the quotients did not decide, so that the perturbation had to.
-    ties: u64,
-}
-
-impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
-    /// For the polygon with the given frame; `is_left` tells the left vertices.
-    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
-        ExactTimes {
-            denominator: DenominatorSign::new(points, frame, is_left),
-            rates: Rates::new(points, frame, is_left),
-            ties: 0,
-        }
-    }
-
-    /// N and D, if D > 0.
-    pub fn quotient(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
-        if !self.denominator.of(circuit).is_positive() {
-            return None;
-        }
-        let (numerator, denominator) = self.rates.evaluate(circuit);
-        Some(Quotient {
-            numerator,
-            denominator,
-        })
-    }
-
-    /// Which of two events, given by circuit and time, comes first: the sign of t_0, then the perturbation.
-    pub fn compare_quotients(&mut self, a: Timed<N>, b: Timed<N>) -> Ordering {
-        let ab = a.1.numerator.clone() * &b.1.denominator;
-        let ba = b.1.numerator.clone() * &a.1.denominator;
-        match (ab - &ba).exact_sign() {
-            Sign::Positive => Ordering::Less,
-            Sign::Negative => Ordering::Greater,
-            Sign::Zero => self.compare_perturbed(a, b),
-        }
-    }
-
-    /// The signs of t_v for the vertices of both circuits, in ε order, until one is not zero.
-    fn compare_perturbed(&mut self, a: Timed<N>, b: Timed<N>) -> Ordering {
-        self.ties += 1;
-        let points = self.rates.points;
-        let coefficients = |circuit: [VertexId; 5]| {
-            let p = circuit.map(|v| points.coordinates::<N>(v));
-            formula::circuit(p.each_ref()).0
-        };
-        let (ca, cb) = (coefficients(a.0), coefficients(b.0));
-        let mut vertices: Vec<VertexId> = a.0.into_iter().chain(b.0).collect();
-        vertices.sort_unstable_by_key(|&v| points.identity(v));
-        vertices.dedup();
-        let zero = N::from_f64(0.0);
-        for v in vertices {
-            let of = |circuit: &[VertexId; 5], c: &[N; 5]| {
-                let place = circuit.iter().position(|&w| w == v);
-                place.map_or(zero.clone(), |i| c[i].clone())
-            };
-            let term = of(&a.0, &ca) * &b.1.denominator - &(of(&b.0, &cb) * &a.1.denominator);
-            match term.exact_sign() {
-                Sign::Positive => return Ordering::Less,
-                Sign::Negative => return Ordering::Greater,
-                Sign::Zero => {}
-            }
-        }
-        Ordering::Equal
-    }
-}
-
-/// A circuit with its time.
-pub type Timed<'t, N> = ([VertexId; 5], &'t Quotient<N>);
-
-impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
-    type Time = Quotient<N>;
-    const EXACT: bool = true;
-
-    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
-        self.quotient(circuit)
-    }
-
-    fn undecided(&self) -> Undecided {
-        Undecided {
-            ties: self.ties,
-            ..Undecided::default()
-        }
-    }
-
-    fn compare(&mut self, a: &Event<Quotient<N>>, b: &Event<Quotient<N>>) -> Ordering {
-        if same_vertices(a.circuit, b.circuit) {
-            // Two triangles of one circuit, or one triangle queued again: the same time, perturbed or not.
-            return Ordering::Equal;
-        }
-        self.compare_quotients((a.circuit, &a.time), (b.circuit, &b.time))
     }
 }

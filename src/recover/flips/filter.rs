@@ -1,0 +1,163 @@
+//! N and D of a circuit in floats with error bounds, and exactly where all coordinates are small integers on a grid.
+//!
+//! The evaluation is that of [`formula`](crate::predicate::formula) over [`Approx`], so its proof of the error bounds
+//! applies; the rates d_v are orient3d determinants, computed once per vertex, of index [`RATE_INDEX`] (difference 1,
+//! product 3, minor 4, product 6, two sums 8). The zero rate of a vertex that does not move fulfils the same bound.
+//!
+//! # Integers
+//! If all coordinates are multiples of 2^g then the c_i, N and D are multiples of the quanta 2^(3g), 2^(5g) and 2^(6g). If
+//! the error of a value is less than half of its quantum, the number is the multiple nearest to the value. If also the
+//! value is less than 2^52 quanta, that multiple is found in floats: the division by a power of two is exact (or
+//! underflows towards 0, the nearest multiple then), and so is rounding to an integer.
+
+use super::motion::Motion;
+use crate::mesh::VertexId;
+use crate::number::{Approx, Sign, Vec3};
+use crate::predicate::{PointStore, formula};
+
+/// The error index of an orient3d determinant of given doubles; see [`Approx`].
+const RATE_INDEX: u32 = 8;
+
+/// The magnitude of a vertex that has not been computed yet.
+const UNKNOWN: f64 = -1.0;
+
+/// Evaluates circuits in floats.
+pub(super) struct Filter<'a, P> {
+    motion: &'a Motion<'a, P>,
+    /// Position, rate, and magnitude of the rate, by the vertices' numbers. NaN positions where they are not doubles: then
+    /// nothing is certain.
+    known: Vec<[f64; 5]>,
+    grid: Grid,
+}
+
+/// 2^(3g), 2^(5g), 2^(6g), for coordinates on a grid 2^g; 0 where that is no normal double.
+#[derive(Clone, Copy)]
+struct Grid {
+    coefficient: f64,
+    numerator: f64,
+    denominator: f64,
+}
+
+/// What the floats say about a circuit with a positive, or possibly positive, D.
+pub(super) struct Evaluated {
+    /// N.
+    pub n: Approx,
+    /// D.
+    pub d: Approx,
+    /// The signs of c_x, c_y, c_z, if they are certain.
+    pub signs: [Option<Sign>; 3],
+    /// N and D in quanta, if they are certain.
+    pub integers: Option<[i64; 2]>,
+}
+
+impl<'a, P: PointStore> Filter<'a, P> {
+    pub(super) fn new(motion: &'a Motion<'a, P>) -> Self {
+        let quantum = |degree: i32| {
+            let exponent = motion.points.grid().map(|g| g.saturating_mul(degree));
+            let normal = exponent.filter(|e| (-1022..=1023).contains(e));
+            normal.map_or(0.0, |e| 2f64.powi(e))
+        };
+        Filter {
+            motion,
+            known: Vec::new(),
+            grid: Grid {
+                coefficient: quantum(3),
+                numerator: quantum(5),
+                denominator: quantum(6),
+            },
+        }
+    }
+
+    #[inline]
+    fn vertex(&mut self, v: VertexId) -> [f64; 5] {
+        let number = self.motion.number(v);
+        match self.known.get(number) {
+            Some(known) if known[4] != UNKNOWN => *known,
+            _ => self.know(v, number),
+        }
+    }
+
+    #[cold]
+    fn know(&mut self, v: VertexId, number: usize) -> [f64; 5] {
+        if number >= self.known.len() {
+            self.known.resize(number + 1, [UNKNOWN; 5]);
+        }
+        let double = |x: &Approx| if x.index() == 0 { x.value() } else { f64::NAN };
+        let [x, y, z] = self
+            .motion
+            .points
+            .coordinates::<Approx>(v)
+            .0
+            .each_ref()
+            .map(double);
+        let rate = self.motion.rate::<Approx>(v);
+        debug_assert!(rate.index() <= RATE_INDEX || x.is_nan() || y.is_nan() || z.is_nan());
+        self.known[number] = [x, y, z, rate.value(), rate.magnitude()];
+        self.known[number]
+    }
+
+    /// The circuit's coefficients and the differences of its points to the last one.
+    #[inline]
+    fn circuit(&self, vertices: &[[f64; 5]; 5]) -> ([Approx; 5], [Vec3<Approx>; 4]) {
+        let position = |&[x, y, z, _, _]: &[f64; 5]| Vec3::<Approx>::from_f64([x, y, z]);
+        let [a, b, c, d, e] = vertices;
+        let p = [
+            position(a),
+            position(b),
+            position(c),
+            position(d),
+            position(e),
+        ];
+        formula::circuit(p.each_ref())
+    }
+
+    /// N, D and the kind of flip; `None` if certainly D ≤ 0.
+    #[inline]
+    pub(super) fn evaluate(&mut self, circuit: [VertexId; 5]) -> Option<Evaluated> {
+        let vertices = circuit.map(|v| self.vertex(v));
+        let (c, q) = self.circuit(&vertices);
+        let rate = vertices
+            .map(|[_, _, _, rate, magnitude]| Approx::with_bound(rate, magnitude, RATE_INDEX));
+        let [ra, rb, rc, rd] = [0, 1, 2, 3].map(|i: usize| rate[i] - &rate[4]);
+        let d = formula::orient4d(&c, [&ra, &rb, &rc, &rd]);
+        match d.sign_on_grid(self.grid.denominator) {
+            Some(Sign::Negative | Sign::Zero) => return None,
+            Some(Sign::Positive) | None => {}
+        }
+        let [la, lb, lc, ld] = [0, 1, 2, 3].map(|i: usize| q[i].dot(&q[i]));
+        let n = formula::orient4d(&c, [&la, &lb, &lc, &ld]);
+        let integers = match (
+            in_quanta(&n, self.grid.numerator),
+            in_quanta(&d, self.grid.denominator),
+        ) {
+            (Some(n), Some(d)) => Some([n, d]),
+            _ => None,
+        };
+        let sign = |i: usize| c[i].sign_on_grid(self.grid.coefficient);
+        Some(Evaluated {
+            n,
+            d,
+            signs: [sign(1), sign(2), sign(3)],
+            integers,
+        })
+    }
+
+    /// The coefficients in quanta, if they are certain.
+    pub(super) fn integer_coefficients(&mut self, circuit: [VertexId; 5]) -> Option<[i64; 5]> {
+        let vertices = circuit.map(|v| self.vertex(v));
+        let (c, _) = self.circuit(&vertices);
+        let mut integers = [0; 5];
+        for (integer, c) in integers.iter_mut().zip(&c) {
+            *integer = in_quanta(c, self.grid.coefficient)?;
+        }
+        Some(integers)
+    }
+}
+
+/// x as a multiple of `quantum`, which it is known to be, if the bound leaves only one possibility.
+#[inline]
+fn in_quanta(x: &Approx, quantum: f64) -> Option<i64> {
+    // No quantum: 0 < 0 is false. The error's bound is at least the smallest normal double.
+    let certain = x.error() < 0.5 * quantum && x.value().abs() < quantum * 2f64.powi(52);
+    certain.then(|| (x.value() / quantum).round() as i64)
+}

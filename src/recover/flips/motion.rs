@@ -1,0 +1,126 @@
+//! The vertices of a region and how fast their heights grow while f is inserted.
+
+use super::super::scratch::Table;
+use crate::mesh::VertexId;
+use crate::number::{Number, Vec3};
+use crate::predicate::{PointStore, formula};
+use std::cell::RefCell;
+
+/// Tells the left vertices of a polygon.
+pub type LeftVertices<'a> = &'a dyn Fn(VertexId) -> bool;
+
+/// What moves while f is inserted: the heights of its left vertices v, with rates orient3d(frame, v).
+pub struct Motion<'a, P> {
+    pub(super) points: &'a P,
+    frame: [VertexId; 3],
+    is_left: LeftVertices<'a>,
+    /// 1 + the number of each vertex in order of first use; 0 if not used yet.
+    numbers: RefCell<VertexNumbers>,
+}
+
+/// A table that numbers the vertices of one region; kept from region to region for its memory.
+#[derive(Clone, Debug, Default)]
+pub struct VertexNumbers {
+    table: Table<u32>,
+    used: u32,
+}
+
+impl<'a, P: PointStore> Motion<'a, P> {
+    /// For the polygon with the given frame; `is_left` tells the left vertices.
+    pub fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
+        Motion::with_numbers(points, frame, is_left, VertexNumbers::default())
+    }
+
+    /// The same, using the memory of `numbers`.
+    pub fn with_numbers(
+        points: &'a P,
+        frame: [VertexId; 3],
+        is_left: LeftVertices<'a>,
+        mut numbers: VertexNumbers,
+    ) -> Self {
+        numbers.table.clear();
+        numbers.used = 0;
+        Motion {
+            points,
+            frame,
+            is_left,
+            numbers: RefCell::new(numbers),
+        }
+    }
+
+    /// The memory given to [`Motion::with_numbers`].
+    pub fn into_numbers(self) -> VertexNumbers {
+        self.numbers.into_inner()
+    }
+
+    /// A small number for each vertex that is asked for: 0, 1, 2, …
+    #[inline]
+    pub(super) fn number(&self, v: VertexId) -> usize {
+        let known = self.numbers.borrow().table.get(v.index());
+        if known > 0 {
+            return (known - 1) as usize;
+        }
+        let mut numbers = self.numbers.borrow_mut();
+        numbers.used += 1;
+        let number = numbers.used;
+        numbers.table.set(v.index(), number);
+        (number - 1) as usize
+    }
+
+    /// The rate d_v.
+    pub(super) fn rate<N: Number>(&self, v: VertexId) -> N {
+        if !(self.is_left)(v) {
+            return N::from_f64(0.0);
+        }
+        let [a, b, c] = self.frame;
+        let p = [a, b, c, v].map(|v| self.points.coordinates::<N>(v));
+        formula::orient3d(p.each_ref())
+    }
+}
+
+/// The positions and rates of a region's vertices in one number type, each computed once.
+pub(super) struct Rates<'a, P, N> {
+    pub(super) motion: &'a Motion<'a, P>,
+    known: Vec<Option<(Vec3<N>, N)>>,
+}
+
+impl<'a, P: PointStore, N: Number> Rates<'a, P, N> {
+    pub(super) fn new(motion: &'a Motion<'a, P>) -> Self {
+        Rates {
+            motion,
+            known: Vec::new(),
+        }
+    }
+
+    /// Makes sure that v is known, and gives its number.
+    fn know(&mut self, v: VertexId) -> usize {
+        let number = self.motion.number(v);
+        if number >= self.known.len() {
+            self.known.resize(number + 1, None);
+        }
+        if self.known[number].is_none() {
+            let position = self.motion.points.coordinates::<N>(v);
+            self.known[number] = Some((position, self.motion.rate(v)));
+        }
+        number
+    }
+
+    /// N and D of a circuit: S(τ) = N + τ·D.
+    pub(super) fn evaluate(&mut self, circuit: [VertexId; 5]) -> (N, N) {
+        let numbers = circuit.map(|v| self.know(v));
+        let of = |i: usize| self.known[numbers[i]].as_ref().expect("just made known");
+        let (c, q) = formula::circuit([0, 1, 2, 3, 4].map(|i| &of(i).0));
+        let lift = [0, 1, 2, 3].map(|i: usize| q[i].dot(&q[i]));
+        let rate = [0, 1, 2, 3].map(|i: usize| of(i).1.clone() - &of(4).1);
+        (
+            formula::orient4d(&c, lift.each_ref()),
+            formula::orient4d(&c, rate.each_ref()),
+        )
+    }
+
+    /// The coefficients of a circuit.
+    pub(super) fn coefficients(&mut self, circuit: [VertexId; 5]) -> [N; 5] {
+        let p = circuit.map(|v| self.motion.points.coordinates::<N>(v));
+        formula::circuit(p.each_ref()).0
+    }
+}
