@@ -109,6 +109,9 @@ pub enum FlipOutcome {
 /// The tetrahedra that a flip created.
 type Created = ArrayVec<TetId, 4>;
 
+/// Edges whose flips have been queued in one round of certifications: of at most four tetrahedra.
+type Edges = ArrayVec<[VertexId; 3], 16>;
+
 /// The insertion of one missing region of a polygon.
 pub struct FlipInsertion<'a, P, C: FlipTimes> {
     mesh: &'a mut TetMesh,
@@ -165,7 +168,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     /// sorted; whatever the outcome, they fill R.
     pub fn insert(mut self, region: &Region) -> (FlipOutcome, Vec<TetId>, FlipCounts) {
         for s in region.crossing_triangles(self.mesh, self.sides) {
-            self.certify(s);
+            self.certify(s, &mut Edges::new());
         }
         let mut outcome = FlipOutcome::Done;
         while let Some(event) = self.queue.pop(&mut self.times) {
@@ -223,16 +226,33 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     }
 
     /// Certify of Fig. 7: queues the crossing triangle opposite corner `s` if it must be flipped at some time.
-    fn certify(&mut self, s: Corner) {
+    ///
+    /// In exact order only what is possible now is queued, and a 3-2 or 4-4 flip only once for its edge, `done` being the
+    /// edges of this round. Nothing is lost: as long as the star of the edge stays as it is the flip stays impossible, and
+    /// when it changes, then by a flip that puts a new tetrahedron at the edge. A triangle between that one and an old
+    /// one is then certified; if there is none the whole star is new, and inside of a 2-3 flip, whose circuit has been
+    /// flipped already. The paper queues more, and so do we with rounded times.
+    fn certify(&mut self, s: Corner, done: &mut Edges) {
         let circuit = event::circuit(self.mesh, s);
-        if let Some(timing) = self.times.time(circuit) {
-            let event = Event {
-                circuit,
-                tet: s.tet(),
-                signs: timing.signs,
-            };
-            self.queue.push(&mut self.times, event, timing);
+        let Some(timing) = self.times.time(circuit) else {
+            return;
+        };
+        let signs = timing.signs;
+        if C::EXACT {
+            let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs);
+            match flip.map(|flip| flip.edge) {
+                Some(Some(edge)) if done.contains(&edge) => return,
+                Some(Some(edge)) => done.push(edge),
+                Some(None) => {}
+                None => return,
+            }
         }
+        let event = Event {
+            circuit,
+            tet: s.tet(),
+            signs,
+        };
+        self.queue.push(&mut self.times, event, timing);
     }
 
     /// Certifies the crossing triangles on the boundary of the flipped volume, now filled by `created`.
@@ -243,6 +263,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     /// flipped and stay locally convex.)
     fn certify_around(&mut self, created: &[TetId]) {
         let two_flips = created.len() == 4;
+        let mut done = Edges::new();
         for &t in created {
             for slot in 0..4 {
                 let s = t.corner(slot);
@@ -250,7 +271,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 let boundary = !created.contains(&n) || (two_flips && s < self.mesh.twin(s));
                 if boundary && self.sides.crosses(&self.mesh.facet(s)) && self.region.get(n.index())
                 {
-                    self.certify(s);
+                    self.certify(s, &mut done);
                 }
             }
         }

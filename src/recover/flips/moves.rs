@@ -22,6 +22,9 @@ pub enum FlipKind {
 pub struct Flip {
     /// Which kind.
     pub kind: FlipKind,
+    /// The edge that is removed, in ascending order, and for a 4-4 flip the end of the new edge with the smaller id, as an
+    /// edge with four tetrahedra can be flipped in two planes. `None` for 2-3 flips.
+    pub edge: Option<[VertexId; 3]>,
     /// To be removed.
     pub old: ArrayVec<TetId, 4>,
     /// To be created, positively oriented.
@@ -57,6 +60,7 @@ pub fn flip_of_triangle<P: PointStore>(
     if positive.len() == 3 {
         return Some(Flip {
             kind: FlipKind::TwoThree,
+            edge: None,
             old: old(&[t1, t2]),
             new: positive,
         });
@@ -78,6 +82,7 @@ pub fn flip_of_triangle<P: PointStore>(
         // vpqr, wpqr and the third tetrahedron vwpq.
         return (behind1.tet() == behind2.tet()).then(|| Flip {
             kind: FlipKind::ThreeTwo,
+            edge: Some([p.min(q), p.max(q), VertexId::INFINITE]),
             old: old(&[t1, t2, behind1.tet()]),
             new: positive,
         });
@@ -88,6 +93,7 @@ pub fn flip_of_triangle<P: PointStore>(
     let four_around_edge = mesh.vertex(behind2) == u && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
     (four_around_edge && !u.is_infinite()).then(|| Flip {
         kind: FlipKind::FourFour,
+        edge: Some([p.min(q), p.max(q), v.min(w)]),
         old: old(&[t1, t2, t3, t4]),
         // vpqr is positive, so vqpu is; w takes the place of p, then of q.
         new: ArrayVec::from([positive[0], positive[1], [v, q, w, u], [v, w, p, u]]),
