@@ -10,7 +10,7 @@ use super::missing::{self, Obstacle};
 use super::region::Region;
 use super::scratch::Table;
 use super::segments::{SegmentIndex, Subsegments};
-use super::side::{Side, Sides};
+use super::side::{Side, SideTable, Sides};
 use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::number::Dyadic;
@@ -53,6 +53,7 @@ pub struct PolygonInsertion<'a, P> {
 pub struct Scratch {
     marks: Table<bool>,
     numbers: VertexNumbers,
+    sides: SideTable,
 }
 
 /// The triangles of a region's part of f, after its insertion.
@@ -96,14 +97,28 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         let polygon = &self.complex.polygons[f];
         let boundary = boundary_subsegments(self.subsegments, index, polygon);
         let on_boundary = boundary.iter().flatten().copied();
-        let sides = Sides::new(
+        let sides = Sides::with_table(
             self.points,
             polygon,
             polygon.vertices.iter().copied().chain(on_boundary),
+            std::mem::take(&mut self.scratch.sides),
         );
+        let result = self.insert_where_missing(f, &sides, &boundary, may_displace);
+        self.scratch.sides = sides.into_table();
+        result
+    }
+
+    /// The same, for a polygon whose sides and boundary are known.
+    fn insert_where_missing(
+        &mut self,
+        f: usize,
+        sides: &Sides<P>,
+        boundary: &[[VertexId; 2]],
+        may_displace: bool,
+    ) -> Result<Vec<usize>, Failure> {
         let flat = sides.flat;
         let mut displaced: Vec<usize> = Vec::new();
-        let mut covering = self.search(f, &sides, &boundary)?;
+        let mut covering = self.search(f, sides, boundary)?;
         if may_displace {
             self.counts.already_present += u64::from(covering.seeds.is_empty());
             self.counts.not_flat += u64::from(!flat);
@@ -114,10 +129,10 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             for &seed in &covering.seeds {
                 // The region of a seed may have been inserted with that of another one.
                 if self.mesh.is_alive(seed) && sides.crosses_tet(self.mesh, seed) {
-                    displaced.extend(self.insert_region(f, &sides, flat, seed, may_displace)?);
+                    displaced.extend(self.insert_region(f, sides, flat, seed, may_displace)?);
                 }
             }
-            covering = self.search(f, &sides, &boundary)?;
+            covering = self.search(f, sides, boundary)?;
             if !covering.seeds.is_empty() {
                 return Err(self.not_flat(f, NotFlatReason::AmbiguousSide));
             }
@@ -129,7 +144,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             .iter()
             .map(|&c| seen_from_left(self.mesh.facet(c)));
         let faces: Faces = faces.collect();
-        self.settle(f, flat, &faces, &boundary)?;
+        self.settle(f, flat, &faces, boundary)?;
         displaced.sort_unstable();
         displaced.dedup();
         Ok(displaced)

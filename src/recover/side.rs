@@ -1,10 +1,10 @@
 //! On which side of a polygon a vertex lies (paper §3.2: left, right, or neither).
 
+use super::scratch::Table;
 use crate::mesh::{TetId, TetMesh, VertexId};
 use crate::number::{Approx, Dyadic, Exact, Number, Sign};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
-use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::RefCell;
 
 /// Where a vertex lies with respect to the plane h of a polygon f.
@@ -32,9 +32,13 @@ pub struct Sides<'a, P> {
     /// Whether all vertices of f lie exactly on h.
     pub flat: bool,
     is_reversed: bool,
-    vertices: FxHashSet<VertexId>,
-    known: RefCell<FxHashMap<VertexId, Side>>,
+    /// The vertices of f, Steiner points included.
+    vertices: Vec<VertexId>,
+    known: RefCell<SideTable>,
 }
+
+/// The sides that are known so far; kept from polygon to polygon for its memory.
+pub type SideTable = Table<Option<Side>>;
 
 impl<'a, P: PointStore> Sides<'a, P> {
     /// The sides of a polygon with the given vertices, Steiner points included.
@@ -43,18 +47,35 @@ impl<'a, P: PointStore> Sides<'a, P> {
         polygon: &Polygon,
         vertices: impl IntoIterator<Item = VertexId>,
     ) -> Sides<'a, P> {
+        Sides::with_table(points, polygon, vertices, SideTable::default())
+    }
+
+    /// The same, using the memory of `table`.
+    pub fn with_table(
+        points: &'a P,
+        polygon: &Polygon,
+        vertices: impl IntoIterator<Item = VertexId>,
+        table: SideTable,
+    ) -> Sides<'a, P> {
         let [a, b, c] = polygon.frame;
-        let vertices: FxHashSet<VertexId> = vertices.into_iter().collect();
+        let mut vertices: Vec<VertexId> = vertices.into_iter().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let on_plane = |&v: &VertexId| points.orient3d([a, b, c, v]).is_zero();
+        let flat = vertices.iter().all(on_plane);
         Sides {
             points,
             frame: polygon.frame,
-            flat: vertices
-                .iter()
-                .all(|&v| points.orient3d([a, b, c, v]).is_zero()),
+            flat,
             is_reversed: false,
+            known: known(&vertices, table),
             vertices,
-            known: RefCell::default(),
         }
+    }
+
+    /// The memory given to [`Sides::with_table`].
+    pub fn into_table(self) -> SideTable {
+        self.known.into_inner()
     }
 
     /// The same polygon seen from behind.
@@ -65,8 +86,8 @@ impl<'a, P: PointStore> Sides<'a, P> {
             frame: [b, a, c],
             flat: self.flat,
             is_reversed: !self.is_reversed,
+            known: known(&self.vertices, SideTable::default()),
             vertices: self.vertices.clone(),
-            known: RefCell::default(),
         }
     }
 
@@ -93,34 +114,53 @@ impl<'a, P: PointStore> Sides<'a, P> {
     }
 
     /// The side of v. Computed once per vertex.
+    #[inline]
     pub fn of(&self, v: VertexId) -> Side {
         if v.is_infinite() {
             return Side::Infinite;
         }
-        if self.vertices.contains(&v) {
-            return Side::On;
-        }
-        *self.known.borrow_mut().entry(v).or_insert_with(|| {
-            let [a, b, c] = self.frame;
-            match self.points.orient3d([a, b, c, v]) {
-                Sign::Positive => Side::Left,
-                Sign::Negative => Side::Right,
-                Sign::Zero if self.flat => Side::Stray,
-                // If f is flat only to rounding, then so is the plane of its frame right only to rounding.
-                Sign::Zero if self.is_reversed => Side::Right,
-                Sign::Zero => Side::Left,
-            }
-        })
+        let known = self.known.borrow().get(v.index());
+        known.unwrap_or_else(|| self.compute(v))
+    }
+
+    #[cold]
+    fn compute(&self, v: VertexId) -> Side {
+        let [a, b, c] = self.frame;
+        let side = match self.points.orient3d([a, b, c, v]) {
+            Sign::Positive => Side::Left,
+            Sign::Negative => Side::Right,
+            Sign::Zero if self.flat => Side::Stray,
+            // If f is flat only to rounding, then so is the plane of its frame right only to rounding.
+            Sign::Zero if self.is_reversed => Side::Right,
+            Sign::Zero => Side::Left,
+        };
+        self.known.borrow_mut().set(v.index(), Some(side));
+        side
     }
 
     /// Whether a simplex has vertices on both sides: a *crossing simplex*, if it is in the region R.
+    #[inline]
     pub fn crosses(&self, simplex: &[VertexId]) -> bool {
-        let has = |side| simplex.iter().any(|&v| self.of(v) == side);
-        has(Side::Left) && has(Side::Right)
+        let (mut left, mut right) = (false, false);
+        for &v in simplex {
+            let side = self.of(v);
+            left |= side == Side::Left;
+            right |= side == Side::Right;
+        }
+        left && right
     }
 
     /// Whether t has vertices on both sides and is no ghost.
     pub fn crosses_tet(&self, mesh: &TetMesh, t: TetId) -> bool {
         !mesh.is_ghost(t) && self.crosses(&mesh.vertices(t))
     }
+}
+
+/// A table that knows the vertices of f.
+fn known(vertices: &[VertexId], mut table: SideTable) -> RefCell<SideTable> {
+    table.clear();
+    for v in vertices {
+        table.set(v.index(), Some(Side::On));
+    }
+    RefCell::new(table)
 }

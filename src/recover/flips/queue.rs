@@ -15,7 +15,7 @@ pub struct FlipQueue<C: FlipTimes> {
     free: Vec<u32>,
     latest_first: bool,
     /// How many events have ever been queued.
-    arrived: u64,
+    arrived: u32,
     comparisons: u64,
 }
 
@@ -28,8 +28,8 @@ struct Entry<K> {
 struct Queued<T> {
     event: Event,
     time: T,
-    /// When it was queued, for ties.
-    arrival: u64,
+    /// When it was queued, for ties between rounded times.
+    arrival: u32,
 }
 
 impl<C: FlipTimes> FlipQueue<C> {
@@ -55,7 +55,7 @@ impl<C: FlipTimes> FlipQueue<C> {
 
     /// The number of events that have been queued so far.
     pub fn arrived(&self) -> u64 {
-        self.arrived
+        u64::from(self.arrived)
     }
 
     /// The number of comparisons so far.
@@ -70,7 +70,7 @@ impl<C: FlipTimes> FlipQueue<C> {
             time: timing.time,
             arrival: self.arrived,
         };
-        self.arrived += 1;
+        self.arrived = self.arrived.checked_add(1).expect("fewer than 2^32 events");
         let place = match self.free.pop() {
             Some(place) => {
                 self.events[place as usize] = queued;
