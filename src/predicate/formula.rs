@@ -25,6 +25,49 @@
 
 use crate::number::{Number, Vec3};
 
+/// A tetrahedron vxyz from which the lifted determinants of its facets are computed: what they have in common.
+///
+/// The affine function through the heights of v, x, y, z relative to that of v is p ↦ G·(p − v)/V with
+/// V = O(v,x,y,z) and G = h_x (y−v)×(z−v) + h_y (z−v)×(x−v) + h_z (x−v)×(y−v). A fifth point w with height h_w (also
+/// relative) lies below it by
+///
+/// > orient4d(v,x,y,z,w) = G·(w − v) − V·h_w
+///
+/// times 1/V: the polynomial of [`orient4d`], factored otherwise. G is computed once for all facets of the tetrahedron.
+#[derive(Clone, Debug)]
+pub struct Lifted<N> {
+    volume: N,
+    crosses: [Vec3<N>; 3],
+}
+
+impl<N: Number> Lifted<N> {
+    /// From x − v, y − v, z − v.
+    #[inline]
+    pub fn new([x, y, z]: [&Vec3<N>; 3]) -> Self {
+        let crosses = [y.cross(z), z.cross(x), x.cross(y)];
+        Lifted {
+            volume: x.dot(&crosses[0]),
+            crosses,
+        }
+    }
+
+    /// G for the heights of x, y, z relative to that of v.
+    #[inline]
+    pub fn gradient(&self, heights: [&N; 3]) -> Vec3<N> {
+        let component = |i: usize| {
+            let [x, y, z] = [0, 1, 2].map(|j: usize| heights[j].clone() * &self.crosses[j].0[i]);
+            x + &y + &z
+        };
+        Vec3([component(0), component(1), component(2)])
+    }
+
+    /// orient4d(v,x,y,z,w), from G, w − v and the height of w relative to that of v.
+    #[inline]
+    pub fn below(&self, gradient: &Vec3<N>, w: &Vec3<N>, height: &N) -> N {
+        gradient.dot(w) - &(self.volume.clone() * height)
+    }
+}
+
 /// det[b−a, c−a, d−a], six times the signed volume of abcd.
 #[inline]
 pub fn orient3d<N: Number>([a, b, c, d]: [&Vec3<N>; 4]) -> N {
@@ -97,6 +140,21 @@ mod tests {
         assert_eq!(at(9), Sign::Negative);
         let p = points([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [4, 4, 4]]);
         assert_eq!(insphere(p.each_ref()).exact_sign(), Sign::Zero);
+    }
+
+    #[test]
+    fn lifted_is_orient4d() {
+        let p = points([[3, 1, 4], [1, 5, 9], [2, 6, 5], [3, 5, 8], [9, 7, 9]]);
+        let heights = [2, 7, 1, 8, -3].map(|h| Dyadic::from_f64(f64::from(h)));
+        let (c, _) = circuit(p.each_ref());
+        let relative = [0, 1, 2, 3].map(|i: usize| heights[i].clone() - &heights[4]);
+        let expected = orient4d(&c, relative.each_ref());
+        let from_v = [1, 2, 3, 4].map(|i: usize| p[i].sub(&p[0]));
+        let relative = [1, 2, 3, 4].map(|i: usize| heights[i].clone() - &heights[0]);
+        let lifted = Lifted::new([&from_v[0], &from_v[1], &from_v[2]]);
+        let gradient = lifted.gradient([&relative[0], &relative[1], &relative[2]]);
+        assert_eq!(lifted.below(&gradient, &from_v[3], &relative[3]), expected);
+        assert_ne!(expected.exact_sign(), Sign::Zero);
     }
 
     #[test]

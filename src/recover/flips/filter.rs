@@ -13,7 +13,8 @@
 use super::motion::Motion;
 use crate::mesh::VertexId;
 use crate::number::{Approx, Sign, Vec3};
-use crate::predicate::{PointStore, formula};
+use crate::predicate::PointStore;
+use crate::predicate::formula::{self, Lifted};
 
 /// The error index of an orient3d determinant of given doubles; see [`Approx`].
 const RATE_INDEX: u32 = 8;
@@ -44,10 +45,19 @@ pub(super) struct Evaluated {
     pub n: Approx,
     /// D.
     pub d: Approx,
-    /// The signs of c_x, c_y, c_z, if they are certain.
-    pub signs: [Option<Sign>; 3],
     /// N and D in quanta, if they are certain.
     pub integers: Option<[i64; 2]>,
+}
+
+/// A tetrahedron in floats: what the evaluations of its facets have in common.
+pub struct LiftedTet {
+    origin: [f64; 5],
+    others: [[f64; 5]; 3],
+    lifted: Lifted<Approx>,
+    /// G for the rates.
+    rising: Vec3<Approx>,
+    /// G for |p|², once needed.
+    resting: Option<Vec3<Approx>>,
 }
 
 impl<'a, P: PointStore> Filter<'a, P> {
@@ -96,36 +106,44 @@ impl<'a, P: PointStore> Filter<'a, P> {
         self.known[number]
     }
 
-    /// The circuit's coefficients and the differences of its points to the last one.
+    /// Prepares the evaluation of the facets of a positive tetrahedron.
     #[inline]
-    fn circuit(&self, vertices: &[[f64; 5]; 5]) -> ([Approx; 5], [Vec3<Approx>; 4]) {
-        let position = |&[x, y, z, _, _]: &[f64; 5]| Vec3::<Approx>::from_f64([x, y, z]);
-        let [a, b, c, d, e] = vertices;
-        let p = [
-            position(a),
-            position(b),
-            position(c),
-            position(d),
-            position(e),
-        ];
-        formula::circuit(p.each_ref())
+    pub(super) fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
+        let [origin, a, b, c] = tet.map(|v| self.vertex(v));
+        let others = [a, b, c];
+        let [a, b, c] = others.each_ref().map(|p| from_origin(p, &origin));
+        let lifted = Lifted::new([&a, &b, &c]);
+        let [ra, rb, rc] = others.each_ref().map(|p| relative_rate(p, &origin));
+        LiftedTet {
+            rising: lifted.gradient([&ra, &rb, &rc]),
+            resting: None,
+            origin,
+            others,
+            lifted,
+        }
     }
 
-    /// N, D and the kind of flip; `None` if certainly D ≤ 0.
+    /// N and D for the tetrahedron and the apex across one of its facets; `None` if certainly D ≤ 0.
     #[inline]
-    pub(super) fn evaluate(&mut self, circuit: [VertexId; 5]) -> Option<Evaluated> {
-        let vertices = circuit.map(|v| self.vertex(v));
-        let (c, q) = self.circuit(&vertices);
-        let rate = vertices
-            .map(|[_, _, _, rate, magnitude]| Approx::with_bound(rate, magnitude, RATE_INDEX));
-        let [ra, rb, rc, rd] = [0, 1, 2, 3].map(|i: usize| rate[i] - &rate[4]);
-        let d = formula::orient4d(&c, [&ra, &rb, &rc, &rd]);
+    pub(super) fn evaluate_across(
+        &mut self,
+        tet: &mut LiftedTet,
+        apex: VertexId,
+    ) -> Option<Evaluated> {
+        let apex = self.vertex(apex);
+        let w = from_origin(&apex, &tet.origin);
+        let rate = relative_rate(&apex, &tet.origin);
+        let d = tet.lifted.below(&tet.rising, &w, &rate);
         match d.sign_on_grid(self.grid.denominator) {
             Some(Sign::Negative | Sign::Zero) => return None,
             Some(Sign::Positive) | None => {}
         }
-        let [la, lb, lc, ld] = [0, 1, 2, 3].map(|i: usize| q[i].dot(&q[i]));
-        let n = formula::orient4d(&c, [&la, &lb, &lc, &ld]);
+        let (lifted, others, origin) = (&tet.lifted, &tet.others, &tet.origin);
+        let resting = tet.resting.get_or_insert_with(|| {
+            let [a, b, c] = others.each_ref().map(|p| from_origin(p, origin));
+            lifted.gradient([&a.dot(&a), &b.dot(&b), &c.dot(&c)])
+        });
+        let n = lifted.below(resting, &w, &w.dot(&w));
         let integers = match (
             in_quanta(&n, self.grid.numerator),
             in_quanta(&d, self.grid.denominator),
@@ -133,25 +151,41 @@ impl<'a, P: PointStore> Filter<'a, P> {
             (Some(n), Some(d)) => Some([n, d]),
             _ => None,
         };
-        let sign = |i: usize| c[i].sign_on_grid(self.grid.coefficient);
-        Some(Evaluated {
-            n,
-            d,
-            signs: [sign(1), sign(2), sign(3)],
-            integers,
-        })
+        Some(Evaluated { n, d, integers })
+    }
+
+    /// N and D of a circuit; `None` if certainly D ≤ 0.
+    pub(super) fn evaluate(&mut self, [v, x, y, z, w]: [VertexId; 5]) -> Option<Evaluated> {
+        let mut tet = self.lift([v, x, y, z]);
+        self.evaluate_across(&mut tet, w)
     }
 
     /// The coefficients in quanta, if they are certain.
     pub(super) fn integer_coefficients(&mut self, circuit: [VertexId; 5]) -> Option<[i64; 5]> {
         let vertices = circuit.map(|v| self.vertex(v));
-        let (c, _) = self.circuit(&vertices);
+        let p = vertices.map(|[x, y, z, _, _]| Vec3::<Approx>::from_f64([x, y, z]));
+        let (c, _) = formula::circuit(p.each_ref());
         let mut integers = [0; 5];
         for (integer, c) in integers.iter_mut().zip(&c) {
             *integer = in_quanta(c, self.grid.coefficient)?;
         }
         Some(integers)
     }
+}
+
+/// p − origin.
+#[inline]
+fn from_origin(p: &[f64; 5], origin: &[f64; 5]) -> Vec3<Approx> {
+    let position = |&[x, y, z, _, _]: &[f64; 5]| Vec3::<Approx>::from_f64([x, y, z]);
+    position(p).sub(&position(origin))
+}
+
+/// The rate at p less that at the origin.
+#[inline]
+fn relative_rate(p: &[f64; 5], origin: &[f64; 5]) -> Approx {
+    let rate =
+        |&[_, _, _, value, magnitude]: &[f64; 5]| Approx::with_bound(value, magnitude, RATE_INDEX);
+    rate(p) - &rate(origin)
 }
 
 /// x as a multiple of `quantum`, which it is known to be, if the bound leaves only one possibility.

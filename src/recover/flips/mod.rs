@@ -167,8 +167,14 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     /// FlipInsertPolygon of Fig. 7. O(n log n) comparisons for n events. Returns the tetrahedra that fill R afterwards,
     /// sorted; whatever the outcome, they fill R.
     pub fn insert(mut self, region: &Region) -> (FlipOutcome, Vec<TetId>, FlipCounts) {
-        for s in region.crossing_triangles(self.mesh, self.sides) {
-            self.certify(s, &mut Edges::new());
+        for corners in region
+            .crossing_triangles(self.mesh, self.sides)
+            .chunk_by(|a, b| a.tet() == b.tet())
+        {
+            let mut lift = self.times.lift(self.mesh.vertices(corners[0].tet()));
+            for &s in corners {
+                self.certify(s, &mut lift, &mut Edges::new());
+            }
         }
         let mut outcome = FlipOutcome::Done;
         while let Some(event) = self.queue.pop(&mut self.times) {
@@ -232,13 +238,14 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     /// when it changes, then by a flip that puts a new tetrahedron at the edge. A triangle between that one and an old
     /// one is then certified; if there is none the whole star is new, and inside of a 2-3 flip, whose circuit has been
     /// flipped already. The paper queues more, and so do we with rounded times.
-    fn certify(&mut self, s: Corner, done: &mut Edges) {
+    fn certify(&mut self, s: Corner, lift: &mut C::Lift, done: &mut Edges) {
         let circuit = event::circuit(self.mesh, s);
-        let Some(timing) = self.times.time(circuit) else {
+        let Some(timing) = self.times.time_across(lift, circuit) else {
             return;
         };
-        let signs = timing.signs;
+        let mut signs = [None; 3];
         if C::EXACT {
+            signs = moves::signs(self.sides.points(), circuit).map(Some);
             let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs);
             match flip.map(|flip| flip.edge) {
                 Some(Some(edge)) if done.contains(&edge) => return,
@@ -265,13 +272,15 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         let two_flips = created.len() == 4;
         let mut done = Edges::new();
         for &t in created {
+            let mut lift = None;
             for slot in 0..4 {
                 let s = t.corner(slot);
                 let n = self.mesh.neighbor(s);
                 let boundary = !created.contains(&n) || (two_flips && s < self.mesh.twin(s));
                 if boundary && self.sides.crosses(&self.mesh.facet(s)) && self.region.get(n.index())
                 {
-                    self.certify(s, &mut done);
+                    let lift = lift.get_or_insert_with(|| self.times.lift(self.mesh.vertices(t)));
+                    self.certify(s, lift, &mut done);
                 }
             }
         }

@@ -3,7 +3,8 @@
 use super::super::scratch::Table;
 use crate::mesh::VertexId;
 use crate::number::{Number, Vec3};
-use crate::predicate::{PointStore, formula};
+use crate::predicate::PointStore;
+use crate::predicate::formula::{self, Lifted};
 use std::cell::RefCell;
 
 /// Tells the left vertices of a polygon.
@@ -109,13 +110,15 @@ impl<'a, P: PointStore, N: Number> Rates<'a, P, N> {
     pub(super) fn evaluate(&mut self, circuit: [VertexId; 5]) -> (N, N) {
         let numbers = circuit.map(|v| self.know(v));
         let of = |i: usize| self.known[numbers[i]].as_ref().expect("just made known");
-        let (c, q) = formula::circuit([0, 1, 2, 3, 4].map(|i| &of(i).0));
-        let lift = [0, 1, 2, 3].map(|i: usize| q[i].dot(&q[i]));
-        let rate = [0, 1, 2, 3].map(|i: usize| of(i).1.clone() - &of(4).1);
-        (
-            formula::orient4d(&c, lift.each_ref()),
-            formula::orient4d(&c, rate.each_ref()),
-        )
+        let [x, y, z, w] = [1, 2, 3, 4].map(|i: usize| of(i).0.sub(&of(0).0));
+        let lifted = Lifted::new([&x, &y, &z]);
+        let below = |[hx, hy, hz, hw]: [N; 4]| {
+            let gradient = lifted.gradient([&hx, &hy, &hz]);
+            lifted.below(&gradient, &w, &hw)
+        };
+        let n = below([&x, &y, &z, &w].map(|p| p.dot(p)));
+        let d = below([1, 2, 3, 4].map(|i: usize| of(i).1.clone() - &of(0).1));
+        (n, d)
     }
 
     /// The coefficients of a circuit.

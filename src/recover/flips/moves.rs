@@ -31,6 +31,17 @@ pub struct Flip {
     pub new: ArrayVec<[VertexId; 4], 4>,
 }
 
+/// What 2-3 flip of the triangle xyz would create: vxyz with w in place of x, of y, of z.
+fn around_new_edge([v, x, y, z, w]: [VertexId; 5]) -> [[VertexId; 4]; 3] {
+    [[v, w, y, z], [v, x, w, z], [v, x, y, w]]
+}
+
+/// The signs of the circuit's coefficients c_x, c_y, c_z.
+#[inline]
+pub fn signs<P: PointStore>(points: &P, circuit: [VertexId; 5]) -> [Sign; 3] {
+    around_new_edge(circuit).map(|tet| -points.orient3d(tet))
+}
+
 /// The flip that removes the triangle xyz opposite corner `c`, between vxyz and wxzy, or `None` if there is none: the
 /// union of the tetrahedra around it is not convex.
 ///
@@ -49,7 +60,7 @@ pub fn flip_of_triangle<P: PointStore>(
     let v = mesh.vertex(c);
     let [x, y, z] = mesh.facet(c);
     let w = mesh.apex_across(c);
-    let around_new_edge = [[v, w, y, z], [v, x, w, z], [v, x, y, w]];
+    let around_new_edge = around_new_edge([v, x, y, z, w]);
     let inside =
         [0, 1, 2].map(|i| signs[i].map_or_else(|| points.orient3d(around_new_edge[i]), |s| -s));
     let positive: ArrayVec<[VertexId; 4], 4> = (0..3)

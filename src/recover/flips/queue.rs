@@ -164,7 +164,9 @@ mod tests {
         type Key = i32;
         type Time = ();
         const EXACT: bool = true;
-        fn time(&mut self, _: [VertexId; 5]) -> Option<Timing<i32, ()>> {
+        type Lift = ();
+        fn lift(&mut self, _: [VertexId; 4]) {}
+        fn time_across(&mut self, (): &mut (), _: [VertexId; 5]) -> Option<Timing<i32, ()>> {
             None
         }
         fn compare_keys(a: i32, b: i32) -> Option<Ordering> {
@@ -190,7 +192,6 @@ mod tests {
             let timing = Timing {
                 key: time(arrival),
                 time: (),
-                signs: [None; 3],
             };
             queue.push(&mut Integers, event, timing);
         };

@@ -1,6 +1,6 @@
 //! Flip times as rounded quotients: the paper's own method, which can fail.
 
-use super::filter::Filter;
+use super::filter::{Filter, LiftedTet};
 use super::motion::{Motion, Rates};
 use super::time::{FlipTimes, Float, Timed, Timing, Undecided};
 use crate::mesh::VertexId;
@@ -35,15 +35,26 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
     type Time = N;
     const EXACT: bool = false;
 
+    type Lift = LiftedTet;
+
     #[inline]
-    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<f64, N>> {
-        let evaluated = self.filter.evaluate(circuit)?;
+    fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
+        self.filter.lift(tet)
+    }
+
+    #[inline]
+    fn time_across(
+        &mut self,
+        lift: &mut LiftedTet,
+        circuit: [VertexId; 5],
+    ) -> Option<Timing<f64, N>> {
+        let evaluated = self.filter.evaluate_across(lift, circuit[4])?;
         if evaluated.d.sign_on_grid(0.0) != Some(Sign::Positive)
             && !self.exact.evaluate(circuit).1.exact_sign().is_positive()
         {
             return None;
         }
-        // The filter's values are what plain doubles give: the same operations in the same order.
+        // The filter's values are what plain doubles give: the same operations in the same order, the origin apart.
         let in_doubles = N::from_doubles(evaluated.n.value(), evaluated.d.value());
         let (n, d) = in_doubles.unwrap_or_else(|| self.rates.evaluate(circuit));
         let time = N::negated_quotient(&n, &d);
@@ -52,8 +63,7 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
             self.overflows += 1;
             return None;
         }
-        let signs = evaluated.signs;
-        Some(Timing { key, time, signs })
+        Some(Timing { key, time })
     }
 
     #[inline]

@@ -21,7 +21,7 @@
 //! up to a factor, which happens only for two triangles of one 4-to-4 flip: they are one event.
 
 use super::event::Event;
-use super::filter::Filter;
+use super::filter::{Filter, LiftedTet};
 use super::motion::{Motion, Rates};
 use crate::mesh::VertexId;
 use crate::number::{Exact, Number, Sign};
@@ -38,7 +38,24 @@ pub trait FlipTimes {
 
     /// The time at which the triangle xyz between vxyz and wxzy must be flipped; `None` if it never must, or if the
     /// number type cannot hold the time.
-    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<Self::Key, Self::Time>>;
+    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<Self::Key, Self::Time>> {
+        let [v, x, y, z, _] = circuit;
+        let mut lift = self.lift([v, x, y, z]);
+        self.time_across(&mut lift, circuit)
+    }
+
+    /// What the times of a tetrahedron's facets have in common.
+    type Lift;
+
+    /// Prepares [`FlipTimes::time_across`] for the facets of a tetrahedron.
+    fn lift(&mut self, tet: [VertexId; 4]) -> Self::Lift;
+
+    /// The time of a triangle of the lifted tetrahedron, vxyz up to an even permutation.
+    fn time_across(
+        &mut self,
+        lift: &mut Self::Lift,
+        circuit: [VertexId; 5],
+    ) -> Option<Timing<Self::Key, Self::Time>>;
 
     /// Which of two times comes first, as far as the keys tell.
     fn compare_keys(a: Self::Key, b: Self::Key) -> Option<Ordering>;
@@ -53,15 +70,13 @@ pub trait FlipTimes {
     const EXACT: bool;
 }
 
-/// A flip time, and what was learned about the flip on the way.
+/// A flip time.
 #[derive(Clone, Debug)]
 pub struct Timing<K, T> {
     /// For most comparisons.
     pub key: K,
     /// For the others.
     pub time: T,
-    /// The signs of c_x, c_y, c_z, where they are known.
-    pub signs: [Option<Sign>; 3],
 }
 
 /// An event and its time, to be compared.
@@ -198,14 +213,20 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
     type Time = Quotient<N>;
     const EXACT: bool = true;
 
-    fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<(), Quotient<N>>> {
-        let signs = self.filter.evaluate(circuit)?.signs;
+    type Lift = LiftedTet;
+
+    fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
+        self.filter.lift(tet)
+    }
+
+    fn time_across(
+        &mut self,
+        lift: &mut LiftedTet,
+        circuit: [VertexId; 5],
+    ) -> Option<Timing<(), Quotient<N>>> {
+        self.filter.evaluate_across(lift, circuit[4])?;
         let time = self.exact_quotient(circuit)?;
-        Some(Timing {
-            key: (),
-            time,
-            signs,
-        })
+        Some(Timing { key: (), time })
     }
 
     fn compare_keys((): (), (): ()) -> Option<Ordering> {
