@@ -61,6 +61,19 @@ impl<N: Number> Lifted<N> {
         Vec3([component(0), component(1), component(2)])
     }
 
+    /// V.
+    #[inline]
+    pub fn volume(&self) -> &N {
+        &self.volume
+    }
+
+    /// The volumes of the tetrahedron with w in place of x, of y, of z, from w − v: V times the barycentric coordinates of w.
+    #[inline]
+    pub fn with_in_place(&self, w: &Vec3<N>) -> [N; 3] {
+        let [x, y, z] = &self.crosses;
+        [w.dot(x), w.dot(y), w.dot(z)]
+    }
+
     /// orient4d(v,x,y,z,w), from G, w − v and the height of w relative to that of v.
     #[inline]
     pub fn below(&self, gradient: &Vec3<N>, w: &Vec3<N>, height: &N) -> N {

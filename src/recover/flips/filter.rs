@@ -51,6 +51,7 @@ pub(super) struct Evaluated {
 
 /// A tetrahedron in floats: what the evaluations of its facets have in common.
 pub struct LiftedTet {
+    ids: [VertexId; 4],
     origin: [f64; 5],
     others: [[f64; 5]; 3],
     lifted: Lifted<Approx>,
@@ -115,6 +116,7 @@ impl<'a, P: PointStore> Filter<'a, P> {
         let lifted = Lifted::new([&a, &b, &c]);
         let [ra, rb, rc] = others.each_ref().map(|p| relative_rate(p, &origin));
         LiftedTet {
+            ids: tet,
             rising: lifted.gradient([&ra, &rb, &rc]),
             resting: None,
             origin,
@@ -152,6 +154,24 @@ impl<'a, P: PointStore> Filter<'a, P> {
             _ => None,
         };
         Some(Evaluated { n, d, integers })
+    }
+
+    /// The signs of c_x, c_y, c_z of a circuit, for a triangle xyz of the lifted tetrahedron, where they are certain: the
+    /// volumes of the tetrahedron with the apex in place of x, of y, of z, negated.
+    #[inline]
+    pub(super) fn signs(
+        &mut self,
+        tet: &LiftedTet,
+        [_, x, y, z, w]: [VertexId; 5],
+    ) -> [Option<Sign>; 3] {
+        let w = from_origin(&self.vertex(w), &tet.origin);
+        let [a, b, c] = tet.lifted.with_in_place(&w);
+        let o = *tet.lifted.volume() - &a - &b - &c;
+        let volumes = [o, a, b, c].map(|v| v.sign_on_grid(self.grid.coefficient));
+        [x, y, z].map(|p| {
+            let place = tet.ids.iter().position(|&v| v == p);
+            volumes[place.expect("x, y, z are vertices of the tetrahedron")].map(|sign| -sign)
+        })
     }
 
     /// N and D of a circuit; `None` if certainly D ≤ 0.

@@ -243,11 +243,10 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         let Some(timing) = self.times.time_across(lift, circuit) else {
             return;
         };
-        let mut signs = [None; 3];
+        let signs = timing.signs;
         if C::EXACT {
-            signs = moves::signs(self.sides.points(), circuit).map(Some);
             let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs);
-            match flip.map(|flip| flip.edge) {
+            match flip.map(|flip| flip.edge()) {
                 Some(Some(edge)) if done.contains(&edge) => return,
                 Some(Some(edge)) => done.push(edge),
                 Some(None) => {}
@@ -294,22 +293,22 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     ) -> Result<(FlipKind, Created), Refused> {
         let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs)
             .ok_or(Refused::Impossible)?;
-        if !flip.old.iter().all(|t| self.region.get(t.index())) {
+        if !flip.old().iter().all(|t| self.region.get(t.index())) {
             return Err(Refused::OutsideRegion);
         }
-        for t in &flip.old {
-            self.region.reset(t.index());
+        let created = flip.perform(self.mesh);
+        match flip {
+            Flip::TwoThree(..) => {
+                self.region.set(created[2].index(), true);
+                self.counts.two_three += 1;
+            }
+            Flip::ThreeTwo([_, _, gone], _) => {
+                self.region.reset(gone.index());
+                self.counts.three_two += 1;
+            }
+            Flip::FourFour(..) => self.counts.four_four += 1,
         }
-        let created = self.mesh.replace_few(&flip.old, &flip.new);
-        for t in &created {
-            self.region.set(t.index(), true);
-        }
-        match flip.kind {
-            FlipKind::TwoThree => self.counts.two_three += 1,
-            FlipKind::ThreeTwo => self.counts.three_two += 1,
-            FlipKind::FourFour => self.counts.four_four += 1,
-        }
-        Ok((flip.kind, created))
+        Ok((flip.kind(), created))
     }
 
     /// The second and third patch of §3.3, for rounded times, after a flip that created `created`.

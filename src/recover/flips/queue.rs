@@ -192,6 +192,7 @@ mod tests {
             let timing = Timing {
                 key: time(arrival),
                 time: (),
+                signs: [None; 3],
             };
             queue.push(&mut Integers, event, timing);
         };

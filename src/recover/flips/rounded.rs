@@ -63,7 +63,9 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
             self.overflows += 1;
             return None;
         }
-        Some(Timing { key, time })
+        // What is possible is asked when the time has come.
+        let signs = [None; 3];
+        Some(Timing { key, time, signs })
     }
 
     #[inline]

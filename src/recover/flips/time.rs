@@ -77,6 +77,8 @@ pub struct Timing<K, T> {
     pub key: K,
     /// For the others.
     pub time: T,
+    /// The signs of the circuit's coefficients c_x, c_y, c_z, where they are known.
+    pub signs: [Option<Sign>; 3],
 }
 
 /// An event and its time, to be compared.
@@ -226,7 +228,12 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
     ) -> Option<Timing<(), Quotient<N>>> {
         self.filter.evaluate_across(lift, circuit[4])?;
         let time = self.exact_quotient(circuit)?;
-        Some(Timing { key: (), time })
+        let signs = self.filter.signs(lift, circuit);
+        Some(Timing {
+            key: (),
+            time,
+            signs,
+        })
     }
 
     fn compare_keys((): (), (): ()) -> Option<Ordering> {
