@@ -313,6 +313,10 @@ fn cavities_swallow_and_displace() {
         if counts.swallowed > 0 {
             let flips = run(&plc, Insertion::Flip(Times::Filtered)).expect("as by cavities");
             assert_eq!(mesh, flips.0);
+            // Where a cavity grows, one of its walls is not Delaunay, and hides vertices.
+            let wrapped = run(&plc, Insertion::GiftWrap).expect("as by cavities");
+            assert_eq!(mesh, wrapped.0);
+            assert_eq!(wrapped.1.flip_fallbacks, 0);
         }
     }
     assert!(swallowed > 0 && displaced > 0 && reinserted > 0);

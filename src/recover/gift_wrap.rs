@@ -43,7 +43,7 @@ use super::side::{Side, Sides};
 use super::sight::Sight;
 use crate::mesh::{TetMesh, VertexId};
 use crate::predicate::PointStore;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A facet with an orientation: v is *in front* if orient3d(v, a, b, c) is positive. The smallest vertex comes first.
 type Facet = [VertexId; 3];
@@ -110,7 +110,8 @@ fn not_locally_delaunay<P: PointStore>(
         (facet, mesh.apex_across(c))
     });
     let apex_in_front: FxHashMap<Facet, VertexId> = inner.chain(outer).collect();
-    let on_f = |f: Face| wrapped.faces.iter().any(|&t| face(t) == f);
+    let on_f: FxHashSet<Face> = wrapped.faces.iter().map(|&t| face(t)).collect();
+    let is_constrained = |f: Face| on_f.contains(&f) || is_subpolygon(f);
     let bad = |&([a, b, c], v): &(Facet, VertexId)| {
         apex_in_front
             .get(&reversed([a, b, c]))
@@ -119,7 +120,7 @@ fn not_locally_delaunay<P: PointStore>(
     let facets = wrapped.new.iter().flat_map(apexes);
     facets
         .filter(bad)
-        .filter(|&(facet, _)| !is_subpolygon(face(facet)) && !on_f(face(facet)))
+        .filter(|&(facet, _)| !is_constrained(face(facet)))
         .count()
 }
 
