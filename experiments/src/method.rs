@@ -72,6 +72,8 @@ mod tests {
         assert_eq!(names[..3], ["cavity", "flip f32", "flip f64"]);
         assert_eq!(names[3..5], ["flip exact", "flip filtered"]);
         assert_eq!(names.len(), if cfg!(feature = "rug") { 6 } else { 5 });
+        let wrapping = Method(Insertion::GiftWrap).to_string();
+        assert!(wrapping == "gift-wrap" && !names.contains(&wrapping));
     }
 
     #[test]
