@@ -122,6 +122,8 @@ fn merge_angle(word: &str) -> Result<f64, String> {
 enum InsertArgument {
     /// Cavity retriangulation (paper §3.1).
     Cavity,
+    /// Gift wrapping of the cavities: the baseline, in quadratic time.
+    GiftWrap,
     /// Bistellar flips (paper §3.2).
     Flip,
 }
@@ -257,8 +259,10 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
 }
 
 fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
-    if arguments.insert == InsertArgument::Cavity {
-        return Ok(Insertion::Cavity);
+    match arguments.insert {
+        InsertArgument::Cavity => return Ok(Insertion::Cavity),
+        InsertArgument::GiftWrap => return Ok(Insertion::GiftWrap),
+        InsertArgument::Flip => {}
     }
     Ok(Insertion::Flip(match arguments.times {
         TimesArgument::F32 => Times::F32,

@@ -1,4 +1,4 @@
-//! Cavity insertion, exact flips in every number type, and every order of insertion end in the same tetrahedra, and the
+//! Cavity insertion, gift wrapping, exact flips in every number type, and every order of insertion end in the same tetrahedra, and the
 //! exact verifier accepts them.
 
 mod common;
@@ -59,6 +59,11 @@ fn agree(plc: &Plc) -> Option<ExportedMesh> {
         ),
     };
     assert_eq!(flips.0, cavity.0);
+    let wrapped = run(plc, Insertion::GiftWrap).expect("flips are its last resort");
+    assert_eq!(wrapped.0, flips.0);
+    if wrapped.1.not_flat == 0 {
+        assert_eq!(wrapped.1.flip_fallbacks + cavity.1.flip_fallbacks, 0);
+    }
     let filtered = run(plc, Insertion::Flip(Times::Filtered)).expect("as with exact times");
     assert_eq!(filtered.0, flips.0);
     assert_eq!(
@@ -246,7 +251,7 @@ proptest! {
         let (mut reordered, n) = (plc.clone(), plc.facets.len());
         reordered.facets.swap(0, seed % n);
         reordered.facets.swap(1, seed / n % n);
-        for insertion in [Insertion::Cavity, Insertion::Flip(Times::Exact)] {
+        for insertion in [Insertion::Cavity, Insertion::GiftWrap, Insertion::Flip(Times::Exact)] {
             let (Ok(a), Ok(b)) = (run(&plc, insertion), run(&reordered, insertion)) else { continue };
             // Segments are numbered by first appearance, so Steiner points may differ; without them the meshes are equal.
             if a.0.vertices.len() == plc.vertices.len() {
@@ -308,6 +313,10 @@ fn cavities_swallow_and_displace() {
         if counts.swallowed > 0 {
             let flips = run(&plc, Insertion::Flip(Times::Filtered)).expect("as by cavities");
             assert_eq!(mesh, flips.0);
+            // Where a cavity grows, one of its walls is not Delaunay, and hides vertices.
+            let wrapped = run(&plc, Insertion::GiftWrap).expect("as by cavities");
+            assert_eq!(mesh, wrapped.0);
+            assert_eq!(wrapped.1.flip_fallbacks, 0);
         }
     }
     assert!(swallowed > 0 && displaced > 0 && reinserted > 0);

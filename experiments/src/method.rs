@@ -8,7 +8,8 @@ use tetflip::recover::polygons::{Insertion, Times};
 pub struct Method(pub Insertion);
 
 impl Method {
-    /// All ways that this build has, in the order of tables: cavity retriangulation, then flips with each number type.
+    /// The ways to compare at all sizes, in the order of tables: cavity retriangulation, then flips with each number type
+    /// that this build has. Gift wrapping takes quadratic time and is not among them.
     pub fn all() -> Vec<Method> {
         let times = [
             Times::F32,
@@ -29,14 +30,15 @@ impl Method {
     pub fn insertion(self) -> &'static str {
         match self.0 {
             Insertion::Cavity => "cavity",
+            Insertion::GiftWrap => "gift-wrap",
             Insertion::Flip(_) => "flip",
         }
     }
 
-    /// The number type of the flip times: the column `times`. Cavities have none.
+    /// The number type of the flip times: the column `times`. Only flips have them.
     pub fn times(self) -> &'static str {
         match self.0 {
-            Insertion::Cavity => "",
+            Insertion::Cavity | Insertion::GiftWrap => "",
             Insertion::Flip(Times::F32) => "f32",
             Insertion::Flip(Times::F64) => "f64",
             Insertion::Flip(Times::Filtered) => "filtered",
@@ -70,6 +72,8 @@ mod tests {
         assert_eq!(names[..3], ["cavity", "flip f32", "flip f64"]);
         assert_eq!(names[3..5], ["flip exact", "flip filtered"]);
         assert_eq!(names.len(), if cfg!(feature = "rug") { 6 } else { 5 });
+        let wrapping = Method(Insertion::GiftWrap).to_string();
+        assert!(wrapping == "gift-wrap" && !names.contains(&wrapping));
     }
 
     #[test]

@@ -27,6 +27,9 @@ pub enum Times {
 pub enum Insertion {
     /// Cavity retriangulation (paper §3.1).
     Cavity,
+    /// Gift wrapping of the two cavities (Shewchuk 2002; paper §3.1): the baseline, in quadratic time.
+    #[serde(rename = "gift-wrap")]
+    GiftWrap,
     /// Bistellar flips in order of their times (paper §3.2).
     Flip(Times),
 }
@@ -50,8 +53,12 @@ pub struct PolygonCounts {
     pub displaced: u64,
     /// Cavities: polygons inserted again because they were displaced.
     pub reinserted: u64,
-    /// Cavities: regions inserted by exact flips because retriangulation was refused.
+    /// Cavities: regions in which retriangulation was refused.
     pub cavity_fallbacks: u64,
+    /// Cavities: regions inserted by gift wrapping for that reason.
+    pub gift_wrap_fallbacks: u64,
+    /// Cavities and gift wrapping: regions left to exact flips because gift wrapping was refused, too.
+    pub flip_fallbacks: u64,
     /// Polygons with vertices that are not exactly on one plane.
     pub not_flat: u64,
     /// Shim tetrahedra left: all four vertices on one polygon that is flat only to rounding.

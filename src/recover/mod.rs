@@ -4,6 +4,8 @@
 pub mod cavity;
 pub mod domain;
 pub mod flips;
+pub mod gift_wrap;
+mod graft;
 pub mod method;
 pub mod missing;
 pub mod polygons;
@@ -12,4 +14,5 @@ pub mod scout;
 pub mod scratch;
 pub mod segments;
 pub mod side;
+mod sight;
 pub mod split;

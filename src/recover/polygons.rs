@@ -1,6 +1,6 @@
-//! All polygons, one missing region at a time, by either algorithm (paper §3, §3.3).
+//! All polygons, one missing region at a time, by any of the algorithms (paper §3, §3.3).
 
-use super::cavity::{self, Face, Refused, face};
+use super::cavity::{Face, face};
 use super::flips::{
     ExactTimes, FilteredTimes, FlipInsertion, FlipOutcome, FlipTimes, Motion, RoundedTimes,
     VertexNumbers, Watch, polygon_faces,
@@ -187,20 +187,14 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         self.counts.regions += 1;
         self.counts.crossing_tets += region.tets.len() as u64;
         self.counts.largest_region = self.counts.largest_region.max(region.tets.len() as u64);
-        if self.insertion == Insertion::Cavity {
-            if let Some(displaced) = self.by_cavity(f, sides, &region, may_displace) {
-                return Ok(displaced);
-            }
-            if !flat
-                && let Some(displaced) = self.by_cavity(f, &sides.reversed(), &region, may_displace)
-            {
-                return Ok(displaced);
-            }
-            self.counts.cavity_fallbacks += 1;
-        }
         let times = match self.insertion {
-            Insertion::Cavity => Times::Filtered,
             Insertion::Flip(times) => times,
+            Insertion::Cavity | Insertion::GiftWrap => {
+                if let Some(displaced) = self.by_retriangulation(f, sides, &region, may_displace) {
+                    return Ok(displaced);
+                }
+                Times::Filtered
+            }
         };
         let mut result = self.by_flips(f, sides, flat, region, times);
         if !flat && let Err((_, region)) = result {
@@ -260,39 +254,6 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             }
         }
         Ok(())
-    }
-
-    /// Cavity retriangulation of one region; `None` if it is refused.
-    fn by_cavity(
-        &mut self,
-        f: usize,
-        sides: &Sides<P>,
-        region: &Region,
-        may_displace: bool,
-    ) -> Option<Vec<usize>> {
-        let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
-        let result =
-            cavity::retriangulate(self.mesh, sides, region, &is_subpolygon).and_then(|r| {
-                if !may_displace && !r.displaced.is_empty() {
-                    Err(Refused::Displaces)
-                } else if self.mesh.can_replace(&r.old, &r.new) {
-                    Ok(r)
-                } else {
-                    Err(Refused::NotExposed)
-                }
-            });
-        let r = result.ok()?;
-        let created = self.mesh.replace(&r.old, &r.new);
-        self.incidence.update(self.mesh, &created);
-        self.counts.swallowed += r.swallowed as u64;
-        self.counts.displaced += r.displaced.len() as u64;
-        self.counts.shims += count_shims(self.mesh, sides, &created);
-        self.register(f, &r.faces);
-        let polygons = r
-            .displaced
-            .iter()
-            .filter_map(|t| self.subpolygons.remove(t));
-        Some(polygons.map(|g| g as usize).collect())
     }
 
     /// Flips in one region. If they fail the region is restored, and given back.
@@ -393,7 +354,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     }
 
     /// Notes the triangles with which an insertion covered f.
-    fn register(&mut self, f: usize, faces: &Faces) {
+    pub(super) fn register(&mut self, f: usize, faces: &Faces) {
         self.candidates.extend(faces.iter().map(|&t| face(t)));
         self.subpolygons
             .extend(faces.iter().map(|&t| (face(t), f as u32)));
@@ -488,7 +449,7 @@ fn boundary_subsegments(
         .collect()
 }
 
-fn count_shims<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, tets: &[TetId]) -> u64 {
+pub(super) fn count_shims<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, tets: &[TetId]) -> u64 {
     let is_shim = |&&t: &&TetId| mesh.vertices(t).iter().all(|&v| sides.of(v) == Side::On);
     tets.iter().filter(is_shim).count() as u64
 }
