@@ -22,6 +22,7 @@
 
 use super::event::Event;
 use crate::mesh::VertexId;
+pub use crate::number::Float;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::{PointStore, formula};
 use rustc_hash::FxHashMap;
@@ -158,24 +159,6 @@ impl<'a, P: PointStore, N: Number> RoundedTimes<'a, P, N> {
     }
 }
 
-/// A float type in which the quotient is taken.
-pub trait Float: Number {
-    /// −n/d, rounded in this type.
-    fn negated_quotient(n: &Self, d: &Self) -> Self;
-}
-
-impl Float for f64 {
-    fn negated_quotient(n: &f64, d: &f64) -> f64 {
-        -n / d
-    }
-}
-
-impl Float for f32 {
-    fn negated_quotient(n: &f32, d: &f32) -> f32 {
-        -n / d
-    }
-}
-
 impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
     type Time = N;
     const EXACT: bool = false;
@@ -186,12 +169,8 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
         }
         let (n, d) = self.rates.evaluate(circuit);
         let time = N::negated_quotient(&n, &d);
-        if time.to_f64().is_finite() {
-            Some(time)
-        } else {
-            self.overflows += 1;
-            None
-        }
+        self.overflows += u64::from(time.is_none());
+        time
     }
 
     fn undecided(&self) -> Undecided {
@@ -202,7 +181,7 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
     }
 
     fn compare(&mut self, a: &Event<N>, b: &Event<N>) -> Ordering {
-        a.time.to_f64().total_cmp(&b.time.to_f64())
+        N::compare(&a.time, &b.time)
     }
 }
 
