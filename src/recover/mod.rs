@@ -3,7 +3,9 @@
 
 pub mod cavity;
 pub mod domain;
+pub mod dump;
 pub mod flips;
+mod judge;
 pub mod method;
 pub mod missing;
 pub mod polygons;

@@ -8,6 +8,7 @@ mod event;
 mod filtered;
 mod moves;
 mod queue;
+mod run;
 mod time;
 mod watch;
 
@@ -15,6 +16,7 @@ pub use event::Event;
 pub use filtered::{FilteredTime, FilteredTimes};
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
+pub use run::{Flipped, flip_insert};
 pub use time::{
     ExactTimes, FlipTimes, Float, LeftVertices, Quotient, RoundedTimes, Timed, Undecided,
 };
@@ -93,6 +95,14 @@ pub enum FlipOutcome {
     /// An event came off the exact queue with both tetrahedra in place, but its flip is impossible or would remove a
     /// tetrahedron outside R. With exact times and a flat polygon in an edge-protected PLC this cannot happen.
     Impossible,
+    /// Inexact orders only: more flips than any insertion needs.
+    Endless,
+}
+
+/// The most flips that an insertion into a region of `n` tetrahedra may do in an inexact order. Usually they are fewer
+/// than 5n.
+fn most_flips(n: usize) -> u64 {
+    1000 + 100 * n as u64
 }
 
 /// The insertion of one missing region of a polygon.
@@ -106,6 +116,8 @@ pub struct FlipInsertion<'a, P, C: FlipTimes> {
     /// The list L of §3.3.
     postponed: Vec<Event<C::Time>>,
     counts: FlipCounts,
+    /// In an inexact order nothing proves that the flips come to an end: all are refused after this many.
+    most_flips: u64,
     watch: Option<&'a mut dyn Watch>,
 }
 
@@ -120,6 +132,11 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             region: region.tets.iter().copied().collect(),
             postponed: Vec::new(),
             counts: FlipCounts::default(),
+            most_flips: if C::EXACT {
+                u64::MAX
+            } else {
+                most_flips(region.tets.len())
+            },
             watch: None,
         }
     }
@@ -162,6 +179,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                     outcome = FlipOutcome::Impossible;
                     break;
                 }
+                Err(Refused::Endless) => break,
                 Err(Refused::OutsideRegion) => {
                     self.counts.discarded_outside += 1;
                     self.tell(event.circuit, Fate::OutsideRegion);
@@ -181,6 +199,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             .count();
         if crossing > 0 && outcome == FlipOutcome::Done {
             outcome = FlipOutcome::Stuck { crossing };
+        }
+        if self.counts.flips() >= self.most_flips {
+            outcome = FlipOutcome::Endless;
         }
         let undecided = self.times.undecided();
         self.counts.compared_exactly = undecided.compared_exactly;
@@ -231,6 +252,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
 
     /// Flip of Fig. 7: the flip that removes the triangle opposite corner `s`. Returns the new tetrahedra.
     fn flip(&mut self, s: Corner) -> Result<(FlipKind, Vec<TetId>), Refused> {
+        if self.counts.flips() >= self.most_flips {
+            return Err(Refused::Endless);
+        }
         let flip =
             flip_of_triangle(self.sides.points(), self.mesh, s).ok_or(Refused::Impossible)?;
         if !flip.old.iter().all(|t| self.region.contains(t)) {
@@ -269,6 +293,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                     }
                     Err(Refused::OutsideRegion) => self.counts.discarded_outside += 1,
                     Err(Refused::Impossible) => self.postponed.push(event),
+                    Err(Refused::Endless) => {}
                 }
             }
         }
@@ -317,12 +342,14 @@ enum Refused {
     Impossible,
     /// It would remove a tetrahedron outside R.
     OutsideRegion,
+    /// There have been too many.
+    Endless,
 }
 
 impl Refused {
     fn fate(&self) -> Fate {
         match self {
-            Refused::Impossible => Fate::Impossible,
+            Refused::Impossible | Refused::Endless => Fate::Impossible,
             Refused::OutsideRegion => Fate::OutsideRegion,
         }
     }

@@ -142,7 +142,8 @@ impl<'a, P: PointStore> DenominatorSign<'a, P> {
 
 /// Times as rounded quotients, ties in order of arrival: the paper's own method, which can fail.
 pub struct RoundedTimes<'a, P, N> {
-    denominator: DenominatorSign<'a, P>,
+    /// `None` if the sign of D is that of the rounded D, right or wrong.
+    denominator: Option<DenominatorSign<'a, P>>,
     rates: Rates<'a, P, N>,
     /// Times discarded because the quotient was not finite.
     overflows: u64,
@@ -152,7 +153,15 @@ impl<'a, P: PointStore, N: Number> RoundedTimes<'a, P, N> {
     /// For the polygon with the given frame; `is_left` tells the left vertices.
     pub fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
         RoundedTimes {
-            denominator: DenominatorSign::new(points, frame, is_left),
+            denominator: Some(DenominatorSign::new(points, frame, is_left)),
+            ..RoundedTimes::naive(points, frame, is_left)
+        }
+    }
+
+    /// The same with a rounded sign of D, which the paper does not go as far as.
+    pub fn naive(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
+        RoundedTimes {
+            denominator: None,
             rates: Rates::new(points, frame, is_left),
             overflows: 0,
         }
@@ -164,10 +173,15 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
     const EXACT: bool = false;
 
     fn time(&mut self, circuit: [VertexId; 5]) -> Option<N> {
-        if !self.denominator.of(circuit).is_positive() {
+        if let Some(denominator) = &mut self.denominator
+            && !denominator.of(circuit).is_positive()
+        {
             return None;
         }
         let (n, d) = self.rates.evaluate(circuit);
+        if self.denominator.is_none() && d.sign() != Some(Sign::Positive) {
+            return None;
+        }
         let time = N::negated_quotient(&n, &d);
         self.overflows += u64::from(time.is_none());
         time
