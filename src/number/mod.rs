@@ -27,7 +27,7 @@ pub use dyadic::Dyadic;
 pub use float::Float;
 pub use sign::Sign;
 pub use vector::Vec3;
-pub use wide::{Bits, FloatTask, UnknownBits, Wide};
+pub use wide::{Bits, UnknownBits, Wide, WidthTask};
 
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};

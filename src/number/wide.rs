@@ -54,26 +54,36 @@ impl<const BITS: u32> Wide<BITS> {
         &self.0
     }
 
+    /// The exact value.
+    pub fn into_value(self) -> Dyadic {
+        self.0
+    }
+
     /// self / d, rounded; `None` if d = 0.
     #[must_use]
     pub fn quotient(&self, d: &Self) -> Option<Self> {
-        let (n, d) = (&self.0, &d.0);
-        if d.mantissa == IBig::ZERO {
-            return None;
-        }
-        // A quotient of at least BITS + 2 bits, with one more bit that says whether there is a remainder, rounds as
-        // the exact quotient does.
-        let wanted = d.mantissa.bit_len() + BITS as usize + 2;
-        let shift = wanted.saturating_sub(n.mantissa.bit_len());
-        let (sign_n, magnitude_n) = (n.mantissa.clone() << shift).into_parts();
-        let (sign_d, magnitude_d) = d.mantissa.clone().into_parts();
-        let (head, rest) = magnitude_n.div_rem(magnitude_d);
-        let sticky = UBig::from(u8::from(rest != UBig::ZERO));
-        Some(Wide::nearest(Dyadic {
-            mantissa: IBig::from_parts(sign_n * sign_d, (head << 1) + sticky),
-            exponent: n.exponent - d.exponent - shift as i64 - 1,
-        }))
+        quotient(&self.0, &d.0, BITS).map(Wide)
     }
+}
+
+/// n/d rounded to `bits` bits; `None` if d = 0.
+fn quotient(n: &Dyadic, d: &Dyadic, bits: u32) -> Option<Dyadic> {
+    if d.mantissa == IBig::ZERO {
+        return None;
+    }
+    // A quotient of at least bits + 2 bits, with one more bit that says whether there is a remainder, rounds as the exact
+    // quotient does.
+    let wanted = d.mantissa.bit_len() + bits as usize + 2;
+    let shift = wanted.saturating_sub(n.mantissa.bit_len());
+    let (sign_n, magnitude_n) = (n.mantissa.clone() << shift).into_parts();
+    let (sign_d, magnitude_d) = d.mantissa.clone().into_parts();
+    let (head, rest) = magnitude_n.div_rem(magnitude_d);
+    let sticky = UBig::from(u8::from(rest != UBig::ZERO));
+    let quotient = Dyadic {
+        mantissa: IBig::from_parts(sign_n * sign_d, (head << 1) + sticky),
+        exponent: n.exponent - d.exponent - shift as i64 - 1,
+    };
+    Some(rounded(quotient, bits))
 }
 
 impl<const BITS: u32> Add<&Wide<BITS>> for Wide<BITS> {
@@ -127,13 +137,14 @@ impl<const BITS: u32> Float for Wide<BITS> {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Bits(u32);
 
-/// What is to be done in a float type that is known by its number of bits only at run time.
-pub trait FloatTask {
+/// What is to be done with floats whose number of bits is known only at run time. It is compiled once for every width, so
+/// it had better be short.
+pub trait WidthTask {
     /// The result.
     type Output;
 
     /// Does it.
-    fn with<N: Float>(self) -> Self::Output;
+    fn with<const BITS: u32>(self) -> Self::Output;
 }
 
 macro_rules! widths {
@@ -143,9 +154,9 @@ macro_rules! widths {
             pub const ALL: &'static [Bits] = &[$(Bits($bits)),*];
 
             /// Does a task in the [`Wide`] of this many bits.
-            pub fn run<T: FloatTask>(self, task: T) -> T::Output {
+            pub fn run<T: WidthTask>(self, task: T) -> T::Output {
                 match self.0 {
-                    $($bits => task.with::<Wide<$bits>>(),)*
+                    $($bits => task.with::<$bits>(),)*
                     _ => unreachable!("only listed widths are made"),
                 }
             }

@@ -4,44 +4,47 @@
 use super::{PointStore, formula};
 use crate::mesh::VertexId;
 use crate::number::{Number, Sign, Vec3};
-use std::marker::PhantomData;
 
-/// The points of a store, seen through the number type `N`: every sign is that of the formula evaluated in `N`, and may
-/// be wrong. A sign that `N` does not know (NaN) is given as zero, and so is that of points one of which is repeated. No
-/// weight is perturbed: five points that seem cospherical are.
+/// The points of a store, seen through a number type N: every sign is that of the formula evaluated in N, and may be
+/// wrong. A sign that N does not know (NaN) is given as zero, and so is that of points one of which is repeated. No weight
+/// is perturbed: five points that seem cospherical are.
+///
+/// N is not part of the type, so that what works on a view is not compiled anew for every N.
 ///
 /// A view does not grow: [`PointStore::push`] and the other methods that change a store must not be called.
 #[derive(Debug)]
-pub struct NaivePoints<'a, P, N> {
+pub struct NaivePoints<'a, P> {
     points: &'a P,
-    numbers: PhantomData<N>,
+    orient3d: fn(&P, [VertexId; 4]) -> Sign,
+    insphere: fn(&P, [VertexId; 5]) -> Sign,
 }
 
-impl<'a, P: PointStore, N: Number> NaivePoints<'a, P, N> {
-    /// The view of a store.
-    pub fn new(points: &'a P) -> Self {
+impl<'a, P: PointStore> NaivePoints<'a, P> {
+    /// The view of a store through `N`.
+    pub fn new<N: Number>(points: &'a P) -> Self {
         NaivePoints {
             points,
-            numbers: PhantomData,
+            orient3d: |points, v| sign::<P, N, 4>(points, v, formula::orient3d),
+            insphere: |points, v| sign::<P, N, 5>(points, v, formula::insphere),
         }
     }
+}
 
-    fn sign<const K: usize>(
-        &self,
-        v: [VertexId; K],
-        formula: impl FnOnce([&Vec3<N>; K]) -> N,
-    ) -> Sign {
-        if (1..K).any(|i| v[..i].contains(&v[i])) {
-            return Sign::Zero;
-        }
-        let p = v.map(|v| self.points.coordinates::<N>(v));
-        formula(p.each_ref()).sign().unwrap_or(Sign::Zero)
+fn sign<P: PointStore, N: Number, const K: usize>(
+    points: &P,
+    v: [VertexId; K],
+    formula: impl FnOnce([&Vec3<N>; K]) -> N,
+) -> Sign {
+    if (1..K).any(|i| v[..i].contains(&v[i])) {
+        return Sign::Zero;
     }
+    let p = v.map(|v| points.coordinates::<N>(v));
+    formula(p.each_ref()).sign().unwrap_or(Sign::Zero)
 }
 
 const FIXED: &str = "a view of points does not change";
 
-impl<P: PointStore, N: Number> PointStore for NaivePoints<'_, P, N> {
+impl<P: PointStore> PointStore for NaivePoints<'_, P> {
     fn len(&self) -> usize {
         self.points.len()
     }
@@ -59,11 +62,11 @@ impl<P: PointStore, N: Number> PointStore for NaivePoints<'_, P, N> {
     }
 
     fn orient3d(&self, v: [VertexId; 4]) -> Sign {
-        self.sign(v, formula::orient3d)
+        (self.orient3d)(self.points, v)
     }
 
     fn insphere_unperturbed(&self, v: [VertexId; 5]) -> Sign {
-        self.sign(v, formula::insphere)
+        (self.insphere)(self.points, v)
     }
 
     fn insphere(&self, v: [VertexId; 5]) -> Sign {
@@ -106,14 +109,8 @@ mod tests {
         let points = DoublePoints::new(p.to_vec());
         let v = [0, 1, 2, 3].map(VertexId);
         assert_eq!(points.orient3d(v), Sign::Positive);
-        assert_eq!(
-            NaivePoints::<_, f64>::new(&points).orient3d(v),
-            Sign::Positive
-        );
-        assert_eq!(
-            NaivePoints::<_, Wide<8>>::new(&points).orient3d(v),
-            Sign::Zero
-        );
+        assert_eq!(NaivePoints::new::<f64>(&points).orient3d(v), Sign::Positive);
+        assert_eq!(NaivePoints::new::<Wide<8>>(&points).orient3d(v), Sign::Zero);
     }
 
     #[test]
@@ -127,10 +124,10 @@ mod tests {
         let mut p = huge.to_vec();
         p.push([1e300, 1e300, 1e300]);
         let points = DoublePoints::new(p);
-        let naive = NaivePoints::<_, f64>::new(&points);
+        let naive = NaivePoints::new::<f64>(&points);
         // Infinity minus infinity somewhere.
         assert_eq!(naive.insphere([0, 1, 2, 3, 4].map(VertexId)), Sign::Zero);
-        let seen = NaivePoints::<_, f32>::new(&points);
+        let seen = NaivePoints::new::<f32>(&points);
         assert_eq!(seen.orient3d([0, 1, 2, 1].map(VertexId)), Sign::Zero);
     }
 }

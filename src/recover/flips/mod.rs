@@ -11,6 +11,7 @@ mod queue;
 mod run;
 mod time;
 mod watch;
+mod wide;
 
 pub use event::Event;
 pub use filtered::{FilteredTime, FilteredTimes};
@@ -21,6 +22,7 @@ pub use time::{
     ExactTimes, FlipTimes, Float, LeftVertices, Quotient, RoundedTimes, Timed, Undecided,
 };
 pub use watch::{Fate, Watch};
+pub use wide::WideTimes;
 
 use super::region::Region;
 use super::side::{Side, Sides};

@@ -2,10 +2,10 @@
 
 use super::{
     ExactTimes, FilteredTimes, FlipCounts, FlipInsertion, FlipOutcome, FlipTimes, RoundedTimes,
-    Watch,
+    Watch, WideTimes,
 };
 use crate::mesh::{TetId, TetMesh, VertexId};
-use crate::number::{Dyadic, Exact, Float, FloatTask};
+use crate::number::{Bits, Dyadic, Exact, Float, Wide, WidthTask};
 use crate::predicate::{NaivePoints, PointStore};
 use crate::recover::method::Times;
 use crate::recover::region::Region;
@@ -40,14 +40,14 @@ pub fn flip_insert<P: PointStore>(
     match times {
         Times::F32 => job.rounded::<f32>(),
         Times::F64 => job.rounded::<f64>(),
-        Times::Wide(bits) => bits.run(Rounded(job)),
+        Times::Wide(bits) => job.wide(bits),
         Times::Filtered => job.filtered(),
         Times::Exact => job.exact::<Dyadic>(),
         Times::Rational => job.exact::<BigRational>(),
         #[cfg(feature = "rug")]
         Times::Rug => job.exact::<rug::Rational>(),
-        Times::Naive => job.naive::<f64>(),
-        Times::NaiveWide(bits) => bits.run(Naive(job)),
+        Times::Naive => job.naive(None),
+        Times::NaiveWide(bits) => job.naive(Some(bits)),
     }
 }
 
@@ -66,6 +66,12 @@ impl<P: PointStore> Job<'_, P> {
         self.run(RoundedTimes::<P, N>::new(points, frame, &is_left))
     }
 
+    fn wide(self, bits: Bits) -> Flipped {
+        let (points, frame) = (self.sides.points(), self.sides.frame);
+        let is_left = |v: VertexId| self.sides.of(v) == Side::Left;
+        self.run(WideTimes::new(bits, points, frame, &is_left))
+    }
+
     fn exact<N: Exact>(self) -> Flipped {
         let (points, frame) = (self.sides.points(), self.sides.frame);
         let is_left = |v: VertexId| self.sides.of(v) == Side::Left;
@@ -78,20 +84,26 @@ impl<P: PointStore> Job<'_, P> {
         self.run(FilteredTimes::new(points, frame, &is_left))
     }
 
-    /// All predicates rounded: sides of the plane, convexity of flips, insphere of the second patch, the sign of D.
-    fn naive<N: Float>(self) -> Flipped {
-        let exact = self.sides;
-        let view = NaivePoints::<P, N>::new(exact.points());
-        let sides = exact.seen_through(&view);
+    /// All predicates rounded, to doubles or to some number of bits: sides of the plane, convexity of flips, insphere of
+    /// the second patch, the sign of D.
+    fn naive(self, bits: Option<Bits>) -> Flipped {
+        let (points, frame) = (self.sides.points(), self.sides.frame);
+        let view = match bits {
+            None => NaivePoints::new::<f64>(points),
+            Some(bits) => bits.run(View(points)),
+        };
+        let sides = self.sides.seen_through(&view);
         let is_left = |v: VertexId| sides.of(v) == Side::Left;
-        let times = RoundedTimes::<P, N>::naive(exact.points(), exact.frame, &is_left);
         let job = Job {
             mesh: self.mesh,
             sides: &sides,
             region: self.region,
             watch: self.watch.map(|w| w as &mut dyn Watch),
         };
-        job.run(times)
+        match bits {
+            None => job.run(RoundedTimes::<P, f64>::naive(points, frame, &is_left)),
+            Some(bits) => job.run(WideTimes::naive(bits, points, frame, &is_left)),
+        }
     }
 
     fn run<C: FlipTimes>(self, times: C) -> Flipped {
@@ -106,22 +118,13 @@ impl<P: PointStore> Job<'_, P> {
     }
 }
 
-/// [`Job::rounded`], for a type that is known by its number of bits.
-struct Rounded<'a, P>(Job<'a, P>);
+/// Points to be seen through a [`Wide`].
+struct View<'a, P>(&'a P);
 
-impl<P: PointStore> FloatTask for Rounded<'_, P> {
-    type Output = Flipped;
-    fn with<N: Float>(self) -> Flipped {
-        self.0.rounded::<N>()
-    }
-}
+impl<'a, P: PointStore> WidthTask for View<'a, P> {
+    type Output = NaivePoints<'a, P>;
 
-/// [`Job::naive`], for a type that is known by its number of bits.
-struct Naive<'a, P>(Job<'a, P>);
-
-impl<P: PointStore> FloatTask for Naive<'_, P> {
-    type Output = Flipped;
-    fn with<N: Float>(self) -> Flipped {
-        self.0.naive::<N>()
+    fn with<const BITS: u32>(self) -> NaivePoints<'a, P> {
+        NaivePoints::new::<Wide<BITS>>(self.0)
     }
 }
