@@ -67,23 +67,26 @@ fn border_of_polygon<P: PointStore>(
     sides: &Sides<P>,
     region: &Region,
 ) -> Vec<Vec<VertexId>> {
-    let mut edges: BTreeSet<[VertexId; 2]> = BTreeSet::new();
+    // How often each edge is passed, less how often in the other direction. Where R's boundary touches itself an edge may
+    // be passed twice before it is passed back.
+    let mut passed: BTreeMap<[VertexId; 2], i32> = BTreeMap::new();
     for c in region.boundary(mesh) {
         let [x, y, z] = mesh.facet(c);
         if ![x, y, z].iter().any(|&v| sides.of(v) == Side::Left) {
             continue;
         }
         for [a, b] in [[x, y], [y, z], [z, x]] {
-            if !edges.remove(&[b, a]) {
-                edges.insert([a, b]);
-            }
+            *passed.entry([a, b]).or_insert(0) += 1;
+            *passed.entry([b, a]).or_insert(0) -= 1;
         }
     }
+    let once = |(edge, n): ([VertexId; 2], i32)| std::iter::repeat_n(edge, n.max(0) as usize);
+    let edges: Vec<[VertexId; 2]> = passed.into_iter().flat_map(once).collect();
     closed_walks(&edges)
 }
 
 /// Directed edges, as many into each vertex as out of it, as closed walks that pass each vertex at most once.
-fn closed_walks(edges: &BTreeSet<[VertexId; 2]>) -> Vec<Vec<VertexId>> {
+fn closed_walks(edges: &[[VertexId; 2]]) -> Vec<Vec<VertexId>> {
     let mut next: BTreeMap<VertexId, Vec<VertexId>> = BTreeMap::new();
     for &[a, b] in edges {
         next.entry(a).or_default().push(b);
@@ -115,7 +118,7 @@ mod tests {
     #[test]
     fn walks_are_cut_where_they_meet() {
         let edges = [[0, 1], [1, 2], [2, 0], [2, 3], [3, 4], [4, 2]];
-        let edges = edges.map(|e| e.map(VertexId)).into_iter().collect();
+        let edges = edges.map(|e| e.map(VertexId));
         let mut walks = closed_walks(&edges);
         walks.iter_mut().for_each(|w| w.sort_unstable());
         walks.sort_unstable();
