@@ -15,6 +15,7 @@ use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::delaunay::delaunay;
 use tetflip::error::{Failure, GaveUp};
 use tetflip::mesh::{ExportedMesh, VertexId};
+use tetflip::number::Bits;
 use tetflip::plc::{Facet, Plc, Region, Segment};
 use tetflip::predicate::DoublePoints;
 use tetflip::recover::polygons::{Insertion, Times};
@@ -24,12 +25,15 @@ use tetflip::verify::{Domain, VerifyOptions, verify};
 /// A run on the inputs of this file takes milliseconds; one that takes this long is taken for endless.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-const INSERTIONS: [Insertion; 5] = [
+const INSERTIONS: [Insertion; 7] = [
     Insertion::Cavity,
     Insertion::GiftWrap,
     Insertion::Flip(Times::Exact),
     Insertion::Flip(Times::F64),
     Insertion::Flip(Times::F32),
+    Insertion::Flip(Times::Naive),
+    // Eight bits.
+    Insertion::Flip(Times::NaiveWide(Bits::ALL[0])),
 ];
 
 fn config(cases: u32) -> ProptestConfig {

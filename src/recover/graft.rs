@@ -149,6 +149,7 @@ mod tests {
                 insertion,
                 counts: PolygonCounts::default(),
                 candidates: Vec::new(),
+                scratch: crate::recover::polygons::Scratch::default(),
                 watch: None,
             }
         }

@@ -3,9 +3,11 @@
 
 pub mod cavity;
 pub mod domain;
+pub mod dump;
 pub mod flips;
 pub mod gift_wrap;
 mod graft;
+mod judge;
 pub mod method;
 pub mod missing;
 pub mod polygons;

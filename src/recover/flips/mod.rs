@@ -11,8 +11,10 @@ mod motion;
 mod moves;
 mod queue;
 mod rounded;
+mod run;
 mod time;
 mod watch;
+mod wide;
 
 pub use event::Event;
 pub use filtered::{Enclosure, FilteredTime, FilteredTimes};
@@ -20,8 +22,10 @@ pub use motion::{LeftVertices, Motion, VertexNumbers};
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
 pub use rounded::RoundedTimes;
+pub use run::{FlipScratch, Flipped, flip_insert};
 pub use time::{ExactTimes, FlipTimes, Float, Quotient, Timed, Timing, Undecided};
 pub use watch::{Fate, Watch};
+pub use wide::WideTimes;
 
 use super::region::Region;
 use super::scratch::Table;
@@ -104,6 +108,14 @@ pub enum FlipOutcome {
     /// An event came off the exact queue with both tetrahedra in place, but its flip is impossible or would remove a
     /// tetrahedron outside R. With exact times and a flat polygon in an edge-protected PLC this cannot happen.
     Impossible,
+    /// Inexact orders only: more flips than any insertion needs.
+    Endless,
+}
+
+/// The most flips that an insertion into a region of `n` tetrahedra may do in an inexact order. Usually they are fewer
+/// than 5n.
+fn most_flips(n: usize) -> u64 {
+    1000 + 100 * n as u64
 }
 
 /// The tetrahedra that a flip created.
@@ -123,6 +135,8 @@ pub struct FlipInsertion<'a, P, C: FlipTimes> {
     /// The list L of §3.3.
     postponed: Vec<Event>,
     counts: FlipCounts,
+    /// In an inexact order nothing proves that the flips come to an end: all are refused after this many.
+    most_flips: u64,
     watch: Option<&'a mut dyn Watch>,
 }
 
@@ -147,6 +161,11 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             region: marks,
             postponed: Vec::new(),
             counts: FlipCounts::default(),
+            most_flips: if C::EXACT {
+                u64::MAX
+            } else {
+                most_flips(region.tets.len())
+            },
             watch: None,
         }
     }
@@ -196,6 +215,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                     outcome = FlipOutcome::Impossible;
                     break;
                 }
+                Err(Refused::Endless) => break,
                 Err(Refused::OutsideRegion) => {
                     self.counts.discarded_outside += 1;
                     self.tell(event.circuit, Fate::OutsideRegion);
@@ -216,6 +236,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         let crossing = tets.iter().filter(crosses).count();
         if crossing > 0 && outcome == FlipOutcome::Done {
             outcome = FlipOutcome::Stuck { crossing };
+        }
+        if self.counts.flips() >= self.most_flips {
+            outcome = FlipOutcome::Endless;
         }
         let undecided = self.times.undecided();
         self.counts.queued = self.queue.arrived();
@@ -291,6 +314,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         s: Corner,
         signs: [Option<Sign>; 3],
     ) -> Result<(FlipKind, Created), Refused> {
+        if self.counts.flips() >= self.most_flips {
+            return Err(Refused::Endless);
+        }
         let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs)
             .ok_or(Refused::Impossible)?;
         if !flip.old().iter().all(|t| self.region.get(t.index())) {
@@ -331,6 +357,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                     }
                     Err(Refused::OutsideRegion) => self.counts.discarded_outside += 1,
                     Err(Refused::Impossible) => self.postponed.push(event),
+                    Err(Refused::Endless) => {}
                 }
             }
         }
@@ -383,12 +410,14 @@ enum Refused {
     Impossible,
     /// It would remove a tetrahedron outside R.
     OutsideRegion,
+    /// There have been too many.
+    Endless,
 }
 
 impl Refused {
     fn fate(&self) -> Fate {
         match self {
-            Refused::Impossible => Fate::Impossible,
+            Refused::Impossible | Refused::Endless => Fate::Impossible,
             Refused::OutsideRegion => Fate::OutsideRegion,
         }
     }

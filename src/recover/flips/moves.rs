@@ -115,7 +115,8 @@ pub fn flip_of_triangle<P: PointStore>(
     }
     // On the other side of the plane of v, w, p, q: vqpu and wpqu.
     let u = mesh.vertex(behind1);
-    let four_around_edge = mesh.vertex(behind2) == u && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
+    let four_around_edge =
+        mesh.vertex(behind2) == u && u != r && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
     (four_around_edge && !u.is_infinite())
         .then_some(Flip::FourFour([t1, t2, t3, t4], [v, w, p, q, r, u]))
 }
