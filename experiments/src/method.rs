@@ -46,7 +46,7 @@ impl Method {
     /// Whether a flat polygon can always be inserted in this way. Rounded flip times can fail (paper, §3.4).
     pub fn always_succeeds(self) -> bool {
         match self.0 {
-            Insertion::Cavity => true,
+            Insertion::Cavity | Insertion::GiftWrap => true,
             Insertion::Flip(times) => times.is_exact(),
         }
     }
