@@ -122,6 +122,24 @@ pub fn is_left<P: PointStore>(points: &P, [a, b, c]: [VertexId; 3], v: VertexId)
     points.orient3d([a, b, c, v]).is_positive()
 }
 
+/// The place, from 1, of each event that came off the queue alive in the exact order; none for one that exact numbers would never
+/// have queued.
+pub fn exact_ranks<P: PointStore>(points: &P, insertion: &Insertion) -> Vec<Option<usize>> {
+    let left = |v| is_left(points, insertion.frame, v);
+    let mut exact = ExactTimes::<P, Dyadic>::new(points, insertion.frame, &left);
+    let circuits = popped_alive(insertion);
+    let quotients: Vec<_> = circuits.iter().map(|&c| exact.quotient(c)).collect();
+    let mut timed: Vec<_> = (0..circuits.len())
+        .filter_map(|i| Some((i, circuits[i], quotients[i].as_ref()?)))
+        .collect();
+    timed.sort_by(|a, b| exact.compare_quotients((a.1, a.2), (b.1, b.2)));
+    let mut ranks = vec![None; circuits.len()];
+    for (rank, (i, ..)) in timed.into_iter().enumerate() {
+        ranks[i] = Some(rank + 1);
+    }
+    ranks
+}
+
 /// The disorder of an insertion whose queue was ordered by `times`. O(n log n) exact comparisons.
 pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: Times) -> Disorder {
     let left = |v| is_left(points, insertion.frame, v);

@@ -27,7 +27,10 @@ type Inward = [VertexId; 3];
 type Tet = [VertexId; 4];
 
 /// How many tetrahedra a search may try, those that do not fit included. Some milliseconds; ample for eight vertices.
-const MOST_TRIALS: usize = 100_000;
+const MOST_TRIALS: usize = 20_000;
+
+/// Larger polyhedra are not searched.
+const MOST_VERTICES: usize = 12;
 
 /// What a connected set of crossing tetrahedra is.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -39,7 +42,7 @@ pub enum Class {
     NoTetrahedralization,
     /// There is one; flips have not found it.
     Tetrahedralizable,
-    /// The search was too long.
+    /// It has more than twelve vertices, or the search was too long.
     Undecided,
 }
 
@@ -145,7 +148,12 @@ fn classify<P: PointStore>(points: &P, sides: &Sides, tets: Vec<Tet>) -> Piece {
         is_free: &|_| false,
     };
     let mut locked_halves = Vec::new();
-    let class = match all.fill(&boundary) {
+    let answer = if vertices.len() > MOST_VERTICES {
+        Answer::TooLong
+    } else {
+        all.fill(&boundary)
+    };
+    let class = match answer {
         Answer::Filled(_) => Class::Tetrahedralizable,
         Answer::TooLong => Class::Undecided,
         Answer::Impossible => {
