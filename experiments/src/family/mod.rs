@@ -104,6 +104,11 @@ impl Member {
         FAMILIES[self.family].subfamilies[self.subfamily]
     }
 
+    /// What members are sorted by: family and subfamily in the order of tables, then the seed.
+    pub fn key(&self) -> (usize, usize, u64) {
+        (self.family, self.subfamily, self.seed)
+    }
+
     /// The PLC, its Delaunay tetrahedralization and segments: of the first candidate whose polygons stay exactly flat,
     /// either because it needs no Steiner points, or because the planes of all polygons are parallel to two axes, so
     /// that rounded Steiner points stay on them. Whether polygons can be inserted is not asked.
@@ -271,7 +276,7 @@ mod tests {
             }
         }
         work.sort_unstable();
-        assert!(work[0].0 >= 15, "of 40 members: {work:?}");
+        assert!(work[0].0 >= 10, "of 40 members: {work:?}");
     }
 
     #[test]

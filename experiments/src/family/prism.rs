@@ -16,7 +16,7 @@
 //! - `integer`: as `right`, with coordinates that are small integers: the times are computed without any error but that of
 //!   the quotient.
 
-use super::{Draw, Family, one_polygon};
+use super::{Draw, Family, facet, one_polygon};
 use tetflip::plc::Plc;
 
 /// The family.
@@ -31,6 +31,37 @@ fn candidate(subfamily: &str, draw: &mut Draw) -> Plc {
         "end" => end(draw),
         "integer" => integer(draw),
         _ => side(subfamily, draw),
+    }
+}
+
+/// The failure case: `prism/end:20`, a prism of which the polygon, 5 6 0, is an end, 1 3 4 is the other end, and 2 is the
+/// seventh vertex, with seven tetrahedra from 2 to the rest of the prism's boundary.
+///
+/// In exact order three 3-2 flips suffice, one for each side of the prism. With times in `f64` a 2-3 flip that is later than
+/// all of them comes first and makes an edge that turns the diagonal of one side over, so that those of the three sides go around
+/// the prism: Schönhardt's configuration. Nothing else on the queue can be flipped.
+pub fn paper_failure() -> Plc {
+    let vertices = vec![
+        [
+            1.5410935048566123,
+            0.002780948944582029,
+            0.34136639859080775,
+        ],
+        [
+            -0.9551255041917359,
+            0.10538202968866917,
+            0.011875719634933946,
+        ],
+        [1.5357623819171595, 0.2595063184152222, 0.1580470186971734],
+        [-1.0189137380100017, 0.6274650180699461, 0.3204772931213727],
+        [-0.6468453757129885, -0.5257633582439156, 0.7832929673839728],
+        [1.1690251425595992, 1.1560093252584438, -0.12144927567179231],
+        [1.2328133763778648, 0.6339263368771669, -0.4300508491582311],
+    ];
+    Plc {
+        vertices,
+        facets: vec![facet([5, 6, 0])],
+        ..Plc::default()
     }
 }
 
@@ -161,4 +192,81 @@ fn integer(draw: &mut Draw) -> Plc {
     let inside = |p: &[f64; 3]| square_distance(*p, centre) < 0.999 * square;
     vertices.extend((0..500).map(|_| seventh()).find(inside));
     one_polygon(vertices, 4)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::family::Member;
+    use crate::order::{Trace, disorder, exact_ranks};
+    use crate::schoenhardt::{Class, pieces_left};
+    use tetflip::cdt::Cdt;
+    use tetflip::error::{Failure, GaveUp};
+    use tetflip::mesh::VertexId;
+    use tetflip::recover::flips::Fate;
+    use tetflip::recover::polygons::{Insertion, Times};
+    use tetflip::report::Report;
+
+    fn run(times: Times) -> (Cdt, Trace, Result<(), Failure>) {
+        let mut report = Report::default();
+        let mut cdt = Cdt::with_segments(&paper_failure(), true, &mut report).expect("segments");
+        let (before, mut trace) = (cdt.clone(), Trace::default());
+        let insertion = Insertion::Flip(times);
+        let result =
+            cdt.insert_polygons_watched(insertion, &mut report, &mut |_| (), Some(&mut trace));
+        (before, trace, result.map(|_| ()))
+    }
+
+    #[test]
+    fn rounded_order_locks_itself_in_schoenhardts_polyhedron() {
+        let (cdt, trace, result) = run(Times::F64);
+        let [insertion] = trace.insertions.as_slice() else {
+            panic!("one region");
+        };
+        // The fan: seven tetrahedra, all with the seventh vertex.
+        assert_eq!(insertion.before.len(), 7);
+        assert!(insertion.before.iter().all(|t| t.contains(&VertexId(2))));
+        let d = disorder(&cdt.points, insertion, Times::F64);
+        assert!(d.adjacent >= 2 && d.kendall > 2, "{d:?}");
+        // The first event is the last one in the exact order, and the only one that is flipped.
+        assert_eq!(
+            exact_ranks(&cdt.points, insertion)[0],
+            Some(d.events as usize)
+        );
+        let flips = insertion
+            .events
+            .iter()
+            .filter(|(_, fate)| matches!(fate, Fate::Flipped(_)));
+        assert_eq!(flips.count(), 1);
+        assert_eq!(d.list_left, 6);
+        assert!(matches!(
+            result,
+            Err(Failure::GaveUp(GaveUp::Stuck { crossing: 7, .. }))
+        ));
+        let pieces = pieces_left(&cdt.points, insertion);
+        assert_eq!(pieces.len(), 1);
+        assert_eq!(
+            (pieces[0].class, pieces[0].vertices),
+            (Class::Schoenhardt, 7)
+        );
+        // The prism, without its end on the polygon.
+        assert_eq!(pieces[0].locked_halves, [(6, 7)]);
+    }
+
+    #[test]
+    fn exact_order_succeeds() {
+        for times in [Times::Exact, Times::Filtered] {
+            let (cdt, trace, result) = run(times);
+            assert_eq!(result, Ok(()));
+            let d = disorder(&cdt.points, &trace.insertions[0], times);
+            assert_eq!((d.events, d.kendall), (3, 0), "three flips");
+        }
+    }
+
+    /// A change of the generators would make old tables incomparable.
+    #[test]
+    fn seeds_give_the_same_bits() {
+        let member: Member = "prism/end:20".parse().expect("a name");
+        assert_eq!(member.prepare().plc, paper_failure());
+    }
 }

@@ -74,9 +74,12 @@ pub fn measure(member: Member, plan: &Plan) -> Measured {
     let prepared = member.prepare();
     let reference = tets_by(&prepared.cdt, Insertion::Flip(Times::Exact));
     let expected = reference.as_ref().ok().map(|(tets, _)| tets);
-    let of_seed = plan.numbers.iter().filter(|n| member.seed % n.every == 0);
+    let of_seed = plan
+        .numbers
+        .iter()
+        .filter(|n| member.seed.is_multiple_of(n.every));
     let cavity = tets_by(&prepared.cdt, Insertion::Cavity);
-    let sampled = member.seed % plan.verify_every == 0;
+    let sampled = member.seed.is_multiple_of(plan.verify_every);
     Measured {
         member,
         vertices: prepared.plc.vertices.len(),

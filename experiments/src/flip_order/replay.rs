@@ -14,7 +14,11 @@ use tetflip_experiments::order::{Insertion, disorder, exact_ranks, is_left};
 /// What happens when the polygons of a member are inserted with the given number type: all events that came off the queue
 /// alive, each with its rank in the exact order, and the end.
 pub fn replay(member: Member, times: Times) -> String {
-    let Prepared { plc, cdt, steiner_points } = member.prepare();
+    let Prepared {
+        plc,
+        cdt,
+        steiner_points,
+    } = member.prepare();
     let (reference, _, _) = watched(&cdt, Times::Exact);
     let (result, _, trace) = watched(&cdt, times);
     let mut text = format!(
@@ -72,7 +76,10 @@ fn describe<P: PointStore>(points: &P, insertion: &Insertion, times: Times) -> S
     );
     let mut ranks = exact_ranks(points, insertion).into_iter();
     for &(circuit, fate) in &insertion.events {
-        let takes_turn = matches!(fate, Fate::Flipped(_) | Fate::Impossible | Fate::OutsideRegion);
+        let takes_turn = matches!(
+            fate,
+            Fate::Flipped(_) | Fate::Impossible | Fate::OutsideRegion
+        );
         let rank = match ranks.next_if(takes_turn) {
             Some(Some(rank)) => format!("{rank:>4}"),
             Some(None) => "   –".to_string(),
@@ -139,6 +146,9 @@ mod tests {
         assert!(text.contains("schoenhardt: 7 tets, 7 vertices"), "{text}");
         assert!(!text.contains("0 pairs in the wrong order"), "{text}");
         let text = replay(member, Times::Exact);
-        assert!(text.contains("outcome: ok") && text.contains(" 0 pairs in the wrong order"), "{text}");
+        assert!(
+            text.contains("outcome: ok") && text.contains(" 0 pairs in the wrong order"),
+            "{text}"
+        );
     }
 }
