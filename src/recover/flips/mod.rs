@@ -345,6 +345,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             progress = false;
             for event in std::mem::take(&mut self.postponed) {
                 let Some(s) = event.corner_if_alive(self.mesh) else {
+                    self.tell(event.circuit, Fate::DroppedFromList);
                     continue;
                 };
                 match self.flip(s, event.signs) {
@@ -355,7 +356,10 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                         self.restore_non_crossing(&created);
                         progress = true;
                     }
-                    Err(Refused::OutsideRegion) => self.counts.discarded_outside += 1,
+                    Err(Refused::OutsideRegion) => {
+                        self.counts.discarded_outside += 1;
+                        self.tell(event.circuit, Fate::DroppedFromList);
+                    }
                     Err(Refused::Impossible) => self.postponed.push(event),
                     Err(Refused::Endless) => {}
                 }
