@@ -321,3 +321,50 @@ fn cavities_swallow_and_displace() {
     }
     assert!(swallowed > 0 && displaced > 0 && reinserted > 0);
 }
+
+/// Segments in f part its missing region so that one part is next to no edge that is in the mesh at first.
+#[test]
+fn a_region_may_hide_behind_another() {
+    let vertices = [
+        [0, 2, 0],
+        [5, 2, 2],
+        [2, 3, 0],
+        [3, 0, -1],
+        [-2, -2, 0],
+        [4, 2, 0],
+        [2, -3, 0],
+        [-7, 7, 0],
+        [7, 7, 0],
+        [-2, 2, 0],
+        [-7, -7, 0],
+        [3, 1, 1],
+        [-4, -2, 0],
+        [4, -2, 0],
+        [7, -7, 0],
+        [-3, 4, 3],
+        [2, 3, -1],
+        [-4, 2, 0],
+        [5, 4, 2],
+        [0, -2, 0],
+        [5, -5, -1],
+        [-3, 4, -3],
+    ];
+    let ids = |polygon: &[u32]| polygon.iter().map(|&v| VertexId(v)).collect();
+    let polygons: [&[u32]; 6] = [
+        &[10, 14, 8, 7],
+        &[12, 17],
+        &[4, 9],
+        &[19, 0],
+        &[6, 2],
+        &[13, 5],
+    ];
+    let plc = Plc {
+        vertices: vertices.map(|p| p.map(f64::from)).to_vec(),
+        facets: vec![Facet {
+            polygons: polygons.map(ids).to_vec(),
+            ..Facet::default()
+        }],
+        ..Plc::default()
+    };
+    assert!(agree(&plc).is_some());
+}

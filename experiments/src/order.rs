@@ -15,7 +15,8 @@ use tetflip::mesh::{TetId, VertexId};
 use tetflip::number::Dyadic;
 use tetflip::predicate::PointStore;
 use tetflip::recover::flips::{
-    Event, ExactTimes, Fate, FlipOutcome, FlipTimes, Quotient, RoundedTimes, Watch,
+    Event, ExactTimes, Fate, FlipOutcome, FlipTimes, Motion, Quotient, RoundedTimes, Timing, Watch,
+    WideTimes,
 };
 use tetflip::recover::polygons::Times;
 
@@ -126,7 +127,8 @@ pub fn is_left<P: PointStore>(points: &P, [a, b, c]: [VertexId; 3], v: VertexId)
 /// have queued.
 pub fn exact_ranks<P: PointStore>(points: &P, insertion: &Insertion) -> Vec<Option<usize>> {
     let left = |v| is_left(points, insertion.frame, v);
-    let mut exact = ExactTimes::<P, Dyadic>::new(points, insertion.frame, &left);
+    let motion = Motion::new(points, insertion.frame, &left);
+    let mut exact = ExactTimes::<P, Dyadic>::new(&motion);
     let circuits = popped_alive(insertion);
     let quotients: Vec<_> = circuits.iter().map(|&c| exact.quotient(c)).collect();
     let mut timed: Vec<_> = (0..circuits.len())
@@ -143,7 +145,8 @@ pub fn exact_ranks<P: PointStore>(points: &P, insertion: &Insertion) -> Vec<Opti
 /// The disorder of an insertion whose queue was ordered by `times`. O(n log n) exact comparisons.
 pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: Times) -> Disorder {
     let left = |v| is_left(points, insertion.frame, v);
-    let mut exact = ExactTimes::<P, Dyadic>::new(points, insertion.frame, &left);
+    let motion = Motion::new(points, insertion.frame, &left);
+    let mut exact = ExactTimes::<P, Dyadic>::new(&motion);
     let circuits = popped_alive(insertion);
     let timed = circuits
         .iter()
@@ -169,14 +172,17 @@ pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: Times) 
         (Some(p), Some(q)) => exact.compare_quotients((a, &p), (b, &q)) == Ordering::Equal,
         _ => false,
     };
-    let frame = insertion.frame;
     let rounded_ties = match times {
         Times::F32 => {
-            let rounded = &mut RoundedTimes::<P, f32>::new(points, frame, &left);
+            let rounded = &mut RoundedTimes::<P, f32>::new(&motion);
             Some(ties(rounded, &circuits, &mut is_one))
         }
         Times::F64 => {
-            let rounded = &mut RoundedTimes::<P, f64>::new(points, frame, &left);
+            let rounded = &mut RoundedTimes::<P, f64>::new(&motion);
+            Some(ties(rounded, &circuits, &mut is_one))
+        }
+        Times::Wide(bits) => {
+            let rounded = &mut WideTimes::new(bits, &motion);
             Some(ties(rounded, &circuits, &mut is_one))
         }
         _ => None,
@@ -202,19 +208,23 @@ fn ties<C: FlipTimes>(
 ) -> u64 {
     let mut events = Vec::new();
     for &circuit in circuits {
-        let tet = TetId(0);
-        let time = times.time(circuit);
-        events.extend(time.map(|time| Event {
+        let timing = times.time(circuit);
+        let event = Event {
             circuit,
-            tet,
-            time,
-            arrival: 0,
-        }));
+            tet: TetId(0),
+            signs: [None; 3],
+        };
+        events.extend(timing.map(|timing| (event, timing)));
     }
-    events.sort_by(|a, b| times.compare(a, b));
+    let mut compare = |a: &(Event, Timing<C::Key, C::Time>),
+                       b: &(Event, Timing<C::Key, C::Time>)| {
+        C::compare_keys(a.1.key, b.1.key)
+            .unwrap_or_else(|| times.compare((&a.0, &a.1.time), (&b.0, &b.1.time)))
+    };
+    events.sort_by(&mut compare);
     let pairs = events.windows(2);
     let tied = pairs.filter(|w| {
-        times.compare(&w[0], &w[1]) == Ordering::Equal && !is_one(w[0].circuit, w[1].circuit)
+        compare(&w[0], &w[1]) == Ordering::Equal && !is_one(w[0].0.circuit, w[1].0.circuit)
     });
     tied.count() as u64
 }

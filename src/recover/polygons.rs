@@ -52,6 +52,9 @@ pub struct Scratch {
     sides: SideTable,
 }
 
+/// How often a polygon that is flat only to rounding is searched for missing regions.
+const ROUNDS_IF_NOT_FLAT: usize = 8;
+
 /// The triangles of a region's part of f, after its insertion.
 type Faces = Vec<[VertexId; 3]>;
 
@@ -112,19 +115,25 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             self.counts.already_present += u64::from(covering.seeds.is_empty());
             self.counts.not_flat += u64::from(!flat);
         }
-        if !covering.seeds.is_empty() {
+        // A region may be hidden behind another one, from which segments inside f part it, until that one is inserted.
+        let mut rounds = 0;
+        while !covering.seeds.is_empty() {
             let faces: Faces = covering.faces.iter().map(|&c| self.mesh.facet(c)).collect();
             self.register(f, &faces);
+            let mut inserted = false;
             for &seed in &covering.seeds {
                 // The region of a seed may have been inserted with that of another one.
                 if self.mesh.is_alive(seed) && sides.crosses_tet(self.mesh, seed) {
                     displaced.extend(self.insert_region(f, sides, flat, seed, may_displace)?);
+                    inserted = true;
                 }
             }
-            covering = self.search(f, sides, boundary)?;
-            if !covering.seeds.is_empty() {
+            // Each round covers more of a flat f. If f is not flat nothing says so.
+            rounds += 1;
+            if !inserted || (!flat && rounds == ROUNDS_IF_NOT_FLAT) {
                 return Err(self.not_flat(f, NotFlatReason::AmbiguousSide));
             }
+            covering = self.search(f, sides, boundary)?;
         }
         // The corners are on the left side of f; seen from there, f lies to the left of its boundary edges.
         let seen_from_left = |[a, b, c]: [VertexId; 3]| [b, a, c];

@@ -1,5 +1,6 @@
 //! Which inputs are run, with which number types.
 
+use tetflip::number::Bits;
 use tetflip::recover::polygons::Times;
 
 /// A number type, and on which inputs it is run.
@@ -42,36 +43,37 @@ impl Plan {
     }
 }
 
-/// All number types. Exact ones that are slow and differ from others only in the representation are run on a sample.
+/// All number types. Those that are slow, because they are made of big integers, are run on a sample.
 fn number_types() -> Vec<NumberType> {
     let on_all = |times| NumberType { times, every: 1 };
-    vec![
+    let on_sample = |times| NumberType { times, every: 10 };
+    let mut all = vec![
         on_all(Times::F32),
         on_all(Times::F64),
         on_all(Times::Filtered),
         on_all(Times::Exact),
-        #[cfg(feature = "rug")]
-        NumberType {
-            times: Times::Rug,
-            every: 10,
-        },
-    ]
+        on_all(Times::Naive),
+    ];
+    all.extend(Bits::ALL.iter().map(|&bits| on_sample(Times::Wide(bits))));
+    all.push(on_sample(Times::Rational));
+    #[cfg(feature = "rug")]
+    all.push(on_sample(Times::Rug));
+    all
 }
 
 /// The number type with the given name in tables.
 pub fn number_type(name: &str) -> Option<Times> {
-    let all = number_types().into_iter().map(|n| n.times);
-    all.into_iter().find(|&t| name_of(t) == name)
+    name.parse().ok()
 }
 
 /// The name of a number type in tables.
-pub fn name_of(times: Times) -> &'static str {
-    method(times).times()
+pub fn name_of(times: Times) -> String {
+    times.to_string()
 }
 
 /// Whether its order is exact, so that it must succeed.
 pub fn is_exact(times: Times) -> bool {
-    method(times).always_succeeds()
+    times.is_exact()
 }
 
 /// The bits of a rounded number's significand.
@@ -79,10 +81,7 @@ pub fn precision(times: Times) -> Option<u32> {
     match times {
         Times::F32 => Some(f32::MANTISSA_DIGITS),
         Times::F64 => Some(f64::MANTISSA_DIGITS),
+        Times::Wide(bits) => Some(bits.get()),
         _ => None,
     }
-}
-
-fn method(times: Times) -> tetflip_experiments::method::Method {
-    tetflip_experiments::method::Method(tetflip::recover::polygons::Insertion::Flip(times))
 }

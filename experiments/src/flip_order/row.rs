@@ -14,7 +14,7 @@ pub struct Summary {
     /// The subfamily; `all` of the family together.
     pub subfamily: &'static str,
     /// The number type.
-    pub times: &'static str,
+    pub times: String,
     /// The bits of a rounded number's significand.
     pub precision: Option<u32>,
     /// Inputs run.
@@ -170,7 +170,7 @@ pub struct FailureRow {
     /// The name of the input for `--replay`.
     pub input: String,
     /// The number type.
-    pub times: &'static str,
+    pub times: String,
     /// Vertices of the PLC, Steiner points not counted.
     pub vertices: usize,
     /// Polygons.
@@ -219,7 +219,7 @@ pub fn failures(inputs: &[Measured]) -> Vec<FailureRow> {
 
 /// The failure rates by family as a table for people, a column per number type.
 pub fn table(rows: &[Summary], plan: &Plan) -> String {
-    let names: Vec<&str> = plan.numbers.iter().map(|n| name_of(n.times)).collect();
+    let names: Vec<String> = plan.numbers.iter().map(|n| name_of(n.times)).collect();
     let mut text = format!("{:<30}", "failures / inputs");
     text.extend(names.iter().map(|n| format!(" {n:>13}")));
     let mut kind = ("", "");
@@ -255,8 +255,10 @@ mod tests {
             .map(|n| measure(n.parse().expect("a name"), &plan))
             .collect();
         let rows = summaries(&inputs, &plan, "c");
-        let of = |subfamily, times| {
-            let is = |r: &&Summary| (r.family, r.subfamily, r.times) == ("prism", subfamily, times);
+        let of = |subfamily: &str, times: &str| {
+            let is = |r: &&Summary| {
+                (r.family, r.subfamily, r.times.as_str()) == ("prism", subfamily, times)
+            };
             rows.iter().find(is).expect("a row")
         };
         let f64 = of("all", "f64");
