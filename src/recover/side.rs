@@ -100,7 +100,7 @@ impl<'a, P: PointStore> Sides<'a, P> {
             flat: self.flat,
             is_reversed: self.is_reversed,
             vertices: self.vertices.clone(),
-            known: RefCell::default(),
+            known: known(&self.vertices, SideTable::default()),
         }
     }
 
