@@ -1,17 +1,18 @@
-//! The priority queue of flips: a binary heap whose order is asked from a [`FlipTimes`], so that a comparison may use
-//! the point store and compute what it needs.
+//! The priority queue of flips, whose order is asked from a [`FlipTimes`], so that a comparison may use the point store
+//! and compute what it needs. What is moved around is keys and the numbers of events; the events stay where they are.
 //!
-//! The heap moves keys and the numbers of events; the events stay where they are until they come off the queue. Events in
-//! the far future do not go there at once, but to a *pile*, which is read from front to back: the heap, and the events
-//! that it refers to, stay small enough for the caches. An event is on the pile only if its key says for certain that it
-//! comes after the *horizon*, the time of some other event, and an event leaves the heap only if its key says for certain
-//! that it comes before; else the horizon moves on. So the order is that of one heap.
+//! Three parts: events in the far future are on a *pile*, which is read from front to back; those before the *horizon*, the
+//! time of some event, were taken from the pile in one go and sorted, a *run*; those that were queued since, and are not
+//! after the horizon, are in a binary heap. So most events are sorted, not sifted, and the heap stays small.
+//!
+//! An event is on the pile only if its key says for certain that it comes after the horizon, and one leaves the run or the
+//! heap only if its key says for certain that it comes before; else the horizon moves on. So the order is that of one heap.
 
 use super::event::Event;
 use super::time::{FlipTimes, Timing};
 use std::cmp::Ordering;
 
-/// A pile of at most so many events goes to the heap as a whole, and that is the end of the pile.
+/// A pile of at most so many events is sorted as a whole, and that is the end of the pile.
 const SMALL_PILE: usize = 500;
 
 /// How many keys of the pile are looked at to choose a horizon: the third of them has a fraction of 3/17 of the pile before
@@ -21,6 +22,8 @@ const SAMPLES: usize = 16;
 /// Events, the earliest first or the latest first.
 pub struct FlipQueue<C: FlipTimes> {
     heap: Vec<Entry<C::Key>>,
+    /// The last comes first.
+    run: Vec<Entry<C::Key>>,
     events: Vec<Queued<C::Time>>,
     /// Places in `events` to be used again.
     free: Vec<u32>,
@@ -33,7 +36,7 @@ pub struct FlipQueue<C: FlipTimes> {
     comparisons: u64,
 }
 
-/// The time that separates the heap from the pile.
+/// The time that separates the run and the heap from the pile.
 #[derive(Clone, Copy)]
 enum Horizon<K> {
     /// Before the first event is asked for: all are on the pile.
@@ -62,6 +65,7 @@ impl<C: FlipTimes> FlipQueue<C> {
     pub fn earliest_first() -> Self {
         FlipQueue {
             heap: Vec::new(),
+            run: Vec::new(),
             events: Vec::new(),
             free: Vec::new(),
             latest_first: false,
@@ -101,11 +105,14 @@ impl<C: FlipTimes> FlipQueue<C> {
         if self.is_beyond_horizon(timing.key) {
             self.pile.push((timing.key, queued));
         } else {
-            self.put_on_heap(times, timing.key, queued);
+            let entry = self.keep(timing.key, queued);
+            self.heap.push(entry);
+            self.sift_up(times, self.heap.len() - 1, entry);
         }
     }
 
-    fn put_on_heap(&mut self, times: &mut C, key: C::Key, queued: Queued<C::Time>) {
+    /// Gives an event a place.
+    fn keep(&mut self, key: C::Key, queued: Queued<C::Time>) -> Entry<C::Key> {
         let place = match self.free.pop() {
             Some(place) => {
                 self.events[place as usize] = queued;
@@ -116,9 +123,7 @@ impl<C: FlipTimes> FlipQueue<C> {
                 u32::try_from(self.events.len() - 1).expect("fewer than 2^32 events")
             }
         };
-        let entry = Entry { key, event: place };
-        self.heap.push(entry);
-        self.sift_up(times, self.heap.len() - 1, entry);
+        Entry { key, event: place }
     }
 
     /// Whether a key comes after the horizon for certain.
@@ -155,12 +160,13 @@ impl<C: FlipTimes> FlipQueue<C> {
         C::compare_keys(key, horizon) == Some(before)
     }
 
-    /// Moves the horizon until the first event of the heap is before it, or the pile is empty.
+    /// Moves the horizon until the first event of the run and the heap is before it, or the pile is empty.
     fn move_horizon(&mut self, times: &mut C) {
         while !self.pile.is_empty() {
-            if let Some(first) = self.heap.first().copied()
-                && self.is_before_horizon(first.key)
-            {
+            // Both must be: which of them is first may take an exact comparison.
+            let first = [self.run.last().copied(), self.heap.first().copied()];
+            let mut first = first.into_iter().flatten().peekable();
+            if first.peek().is_some() && first.all(|entry| self.is_before_horizon(entry.key)) {
                 return;
             }
             self.horizon = if self.pile.len() <= SMALL_PILE {
@@ -173,10 +179,20 @@ impl<C: FlipTimes> FlipQueue<C> {
                 if self.is_beyond_horizon(key) {
                     later.push((key, queued));
                 } else {
-                    self.put_on_heap(times, key, queued);
+                    let entry = self.keep(key, queued);
+                    self.run.push(entry);
                 }
             }
             self.pile = later;
+            let mut run = std::mem::take(&mut self.run);
+            run.sort_unstable_by(|&a, &b| {
+                if self.precedes(times, a, b) {
+                    Ordering::Greater
+                } else {
+                    Ordering::Less
+                }
+            });
+            self.run = run;
         }
     }
 
@@ -205,18 +221,35 @@ impl<C: FlipTimes> FlipQueue<C> {
         last.expect("the pile is not empty")
     }
 
-    /// Removes the first event. About log₂ n comparisons: the hole at the top sinks to a leaf along the earlier
-    /// children, and the last event rises from there, usually not far (Floyd's variant; comparisons are what costs).
+    /// Removes the first event.
     pub fn pop(&mut self, times: &mut C) -> Option<Event> {
         self.move_horizon(times);
-        let first = self.heap.first()?.event;
+        let from_run = match (self.run.last().copied(), self.heap.first().copied()) {
+            (None, None) => return None,
+            (Some(_), None) => true,
+            (None, Some(_)) => false,
+            (Some(a), Some(b)) => self.precedes(times, a, b),
+        };
+        let first = if from_run {
+            self.run.pop()
+        } else {
+            self.pop_heap(times)
+        };
+        let first = first.expect("one of them is not empty").event;
+        self.free.push(first);
+        Some(self.events[first as usize].event)
+    }
+
+    /// Removes the first event of the heap. About log₂ n comparisons: the hole at the top sinks to a leaf along the
+    /// earlier children, and the last event rises from there, usually not far (Floyd's variant; comparisons are what costs).
+    fn pop_heap(&mut self, times: &mut C) -> Option<Entry<C::Key>> {
+        let first = self.heap.first().copied()?;
         let last = self.heap.pop().expect("the heap is not empty");
         if !self.heap.is_empty() {
             let hole = self.sink(times);
             self.sift_up(times, hole, last);
         }
-        self.free.push(first);
-        Some(self.events[first as usize].event)
+        Some(first)
     }
 
     /// Sinks a hole from the top to a leaf.
