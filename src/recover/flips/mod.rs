@@ -4,6 +4,7 @@
 //! the queue is that of a [`FlipTimes`]: rounded quotients as in the paper, with the paper's three patches (§3.3), each
 //! counted; or exact quotients with the perturbation of the weights, which need no patch.
 
+mod deletion;
 mod event;
 mod filter;
 mod filtered;
@@ -14,6 +15,7 @@ mod rounded;
 mod time;
 mod watch;
 
+pub use deletion::{Blocked, Deleted, FlipDeletion, Kept};
 pub use event::Event;
 pub use filtered::{Enclosure, FilteredTime, FilteredTimes};
 pub use motion::{LeftVertices, Motion, VertexNumbers};
@@ -70,6 +72,25 @@ impl FlipCounts {
     /// All flips.
     pub fn flips(&self) -> u64 {
         self.two_three + self.three_two + self.four_four
+    }
+
+    fn count(&mut self, kind: FlipKind) {
+        match kind {
+            FlipKind::TwoThree => self.two_three += 1,
+            FlipKind::ThreeTwo => self.three_two += 1,
+            FlipKind::FourFour => self.four_four += 1,
+        }
+    }
+
+    /// Notes what the queue and its order have counted.
+    fn record<C: FlipTimes>(&mut self, queue: &FlipQueue<C>, times: &C) {
+        let undecided = times.undecided();
+        self.queued = queue.arrived();
+        self.comparisons = queue.comparisons();
+        self.compared_exactly = undecided.compared_exactly;
+        self.ties = undecided.ties;
+        self.big_quotients = undecided.big_quotients;
+        self.overflows = undecided.overflows;
     }
 
     /// Adds the counts of another insertion.
@@ -217,13 +238,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         if crossing > 0 && outcome == FlipOutcome::Done {
             outcome = FlipOutcome::Stuck { crossing };
         }
-        let undecided = self.times.undecided();
-        self.counts.queued = self.queue.arrived();
-        self.counts.comparisons = self.queue.comparisons();
-        self.counts.compared_exactly = undecided.compared_exactly;
-        self.counts.ties = undecided.ties;
-        self.counts.big_quotients = undecided.big_quotients;
-        self.counts.overflows = undecided.overflows;
+        self.counts.record(&self.queue, &self.times);
         if let Some(watch) = self.watch {
             let vertices: Vec<_> = tets.iter().map(|&t| self.mesh.vertices(t)).collect();
             watch.end(outcome, &vertices);
@@ -304,11 +319,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         for t in &created {
             self.region.set(t.index(), true);
         }
-        match flip.kind {
-            FlipKind::TwoThree => self.counts.two_three += 1,
-            FlipKind::ThreeTwo => self.counts.three_two += 1,
-            FlipKind::FourFour => self.counts.four_four += 1,
-        }
+        self.counts.count(flip.kind);
         Ok((flip.kind, created))
     }
 
