@@ -62,6 +62,9 @@ pub struct Deleted {
     pub counts: FlipCounts,
 }
 
+/// An event that has been flipped, and when.
+type Flipped<C> = (Event, Timing<<C as FlipTimes>::Key, <C as FlipTimes>::Time>);
+
 /// The deletion of one polygon.
 pub struct FlipDeletion<'a, P, C: FlipTimes> {
     mesh: &'a mut TetMesh,
@@ -70,7 +73,7 @@ pub struct FlipDeletion<'a, P, C: FlipTimes> {
     times: C,
     queue: FlipQueue<C>,
     /// The last flip and its time.
-    last: Option<(Event, Timing<C::Key, C::Time>)>,
+    last: Option<Flipped<C>>,
     /// Which tetrahedra were created by flips.
     created: &'a mut Table<bool>,
     /// The removed tetrahedra that were not.
