@@ -223,7 +223,8 @@ impl<P: PointStore> Cdt<P> {
     }
 
     /// [`Cdt::delete_polygon`] with a choice of how flip times are represented. With exact ones the result is the same;
-    /// rounded ones may be refused where exact ones are not, but do not end in a wrong mesh either.
+    /// rounded ones may be refused where exact ones are not, but
+    /// do not end in a wrong mesh either: all other predicates are exact here, whatever `times` says.
     ///
     /// # Errors
     /// The same.

@@ -26,6 +26,22 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// The region of the polygon that flips have failed to insert, as a PLC in which they can be tried again
+    /// ([`region_as_plc`](crate::recover::dump::region_as_plc)).
+    pub fn region(&self) -> Option<&Plc> {
+        match self {
+            Failure::GaveUp(
+                GaveUp::Stuck { region, .. }
+                | GaveUp::NotDelaunay { region, .. }
+                | GaveUp::FlipOrder { region, .. }
+                | GaveUp::Inverted { region, .. }
+                | GaveUp::Displaced { region, .. }
+                | GaveUp::Endless { region, .. },
+            ) => Some(region),
+            _ => None,
+        }
+    }
+
     /// The message, with vertices and facets numbered as in the user's file.
     pub fn describe(&self, plc: &Plc) -> String {
         let facets = |list: &[usize]| {
@@ -103,21 +119,48 @@ impl Failure {
                 GaveUp::Stuck {
                     facets: f,
                     crossing,
+                    ..
                 } => {
                     format!(
                         "gave up: flips with rounded times stuck, {crossing} crossing tetrahedra left: {}",
                         facets(f)
                     )
                 }
-                GaveUp::NotDelaunay { facets: f, faces } => {
+                GaveUp::NotDelaunay {
+                    facets: f, faces, ..
+                } => {
                     format!(
                         "gave up: flips left {faces} faces that are not locally Delaunay: {}",
                         facets(f)
                     )
                 }
-                GaveUp::FlipOrder { facets: f } => {
+                GaveUp::FlipOrder { facets: f, .. } => {
                     format!(
                         "gave up: an exactly ordered flip is impossible (intersections, or a bug): {}",
+                        facets(f)
+                    )
+                }
+                GaveUp::Inverted {
+                    facets: f, tets, ..
+                } => {
+                    format!(
+                        "gave up: flips by rounded predicates made {tets} flat or inverted tetrahedra: {}",
+                        facets(f)
+                    )
+                }
+                GaveUp::Displaced {
+                    facets: f,
+                    triangles,
+                    ..
+                } => {
+                    format!(
+                        "gave up: flips with rounded times removed {triangles} triangles of other facets: {}",
+                        facets(f)
+                    )
+                }
+                GaveUp::Endless { facets: f, .. } => {
+                    format!(
+                        "gave up: flips with rounded times do not come to an end: {}",
                         facets(f)
                     )
                 }
@@ -188,7 +231,7 @@ pub enum InvalidPlc {
 }
 
 /// Outcomes that are the algorithm's, not (or not provably) the input's.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum GaveUp {
     /// A segment cannot be divided further in the store's coordinates. Usually facets intersect near it.
     #[error("segment {}–{} cannot be divided any further; facets probably intersect near it", segment[0], segment[1])]
@@ -225,6 +268,8 @@ pub enum GaveUp {
         facets: Vec<usize>,
         /// The crossing tetrahedra that are left.
         crossing: usize,
+        /// The region, to try again; see [`Failure::region`].
+        region: Box<Plc>,
     },
     /// Flips ended with a face in the region that is not locally Delaunay.
     #[error(
@@ -235,6 +280,8 @@ pub enum GaveUp {
         facets: Vec<usize>,
         /// The faces.
         faces: usize,
+        /// The region, to try again; see [`Failure::region`].
+        region: Box<Plc>,
     },
     /// An event came off the exact flip queue that cannot be performed. This cannot happen for a flat polygon in an
     /// edge-protected PLC: the PLC is not valid near the polygon, or there is a bug in tetflip.
@@ -244,6 +291,42 @@ pub enum GaveUp {
     FlipOrder {
         /// The facets of the polygon.
         facets: Vec<usize>,
+        /// The region, to try again; see [`Failure::region`].
+        region: Box<Plc>,
+    },
+    /// Flips by rounded predicates ended with tetrahedra that are flat or inside out.
+    #[error(
+        "flips by rounded predicates on the polygon made of facets {facets:?} made {tets} flat or inverted tetrahedra"
+    )]
+    Inverted {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// The tetrahedra.
+        tets: usize,
+        /// The region, to try again; see [`Failure::region`].
+        region: Box<Plc>,
+    },
+    /// Flips in rounded order removed triangles of polygons that had been inserted before.
+    #[error(
+        "flips with rounded times on the polygon made of facets {facets:?} removed {triangles} triangles of others"
+    )]
+    Displaced {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// The triangles.
+        triangles: usize,
+        /// The region, to try again; see [`Failure::region`].
+        region: Box<Plc>,
+    },
+    /// Flips in rounded order were stopped, because there were more than there can be.
+    #[error(
+        "flips with rounded times on the polygon made of facets {facets:?} do not come to an end"
+    )]
+    Endless {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// The region, to try again; see [`Failure::region`].
+        region: Box<Plc>,
     },
     /// The surface encloses nothing, so that nothing is left without the convex hull.
     #[error(

@@ -1,13 +1,13 @@
 //! tetflip: constrained Delaunay tetrahedralizations (CDTs) of piecewise linear complexes (PLCs), after
 //! Si & Shewchuk, *Incrementally Constructing and Updating Constrained Delaunay Tetrahedralizations with Finite
-//! Precision Coordinates*. Polygons are inserted either by cavity retriangulation or by bistellar flips, whose order is
-//! exact or, to reproduce the paper, rounded.
+//! Precision Coordinates*. Polygons are inserted by cavity retriangulation, by gift wrapping, or by bistellar flips,
+//! whose order is exact or, to reproduce the paper, rounded.
 //!
 //! ```text
 //! file ── format ──▶ Plc ── plc ──▶ Complex ── delaunay ──▶ Delaunay of the vertices
 //!                                                             │ recover::segments (Steiner points)
 //!                                                             ▼
-//!                                                  recover::polygons: cavity | flips
+//!                                                  recover::polygons: cavity | gift wrapping | flips
 //!                                                             │ recover::domain
 //!                                                             ▼
 //! files ◀── format ── ExportedMesh ◀───────────────── cdt::Cdt::export

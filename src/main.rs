@@ -9,7 +9,7 @@ use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::delaunay::delaunay;
 use tetflip::error::Failure;
 use tetflip::format::{
-    FormatError, mesh_paths, read_mesh, read_plc, read_poly, read_smesh, write_mesh,
+    FormatError, mesh_paths, read_mesh, read_plc, read_poly, read_smesh, write_mesh, write_poly,
 };
 use tetflip::mesh::{ExportedFace, ExportedMesh, TetMesh, VertexId};
 use tetflip::plc::{Complex, Plc};
@@ -49,8 +49,13 @@ struct MeshArguments {
     #[arg(long, value_enum, default_value_t = InsertArgument::Flip)]
     insert: InsertArgument,
     /// The number type of the flip queue (with --insert flip).
-    #[arg(long, value_enum, default_value_t = TimesArgument::Filtered)]
-    times: TimesArgument,
+    ///
+    /// Exact: `filtered` (mostly decided by floats), `exact` (dyadic), `rational`, `rug` (GMP, only if built with the feature
+    /// rug). Rounded, which can fail: `f64` (the paper's), `f32`, `bits:N` (N mantissa bits). All predicates of an
+    /// insertion rounded, which fails oftener: `naive` (doubles), `naive:N`. N is 8, 11, 14, 16, 18, 20, 22, 24, 26, 28, 32,
+    /// 36, 40, 44, 48, 53, 64, 80, 106, 160 or 256.
+    #[arg(long, value_name = "TYPE", default_value_t = Times::Filtered)]
+    times: Times,
     /// Keep the whole convex hull instead of what the facets enclose.
     #[arg(long)]
     hull: bool,
@@ -122,22 +127,10 @@ fn merge_angle(word: &str) -> Result<f64, String> {
 enum InsertArgument {
     /// Cavity retriangulation (paper §3.1).
     Cavity,
+    /// Gift wrapping of the cavities: the baseline, in quadratic time.
+    GiftWrap,
     /// Bistellar flips (paper §3.2).
     Flip,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum TimesArgument {
-    /// Single precision; can fail.
-    F32,
-    /// Double precision, as in the paper; can fail.
-    F64,
-    /// Exact, decided by floats where they suffice.
-    Filtered,
-    /// Exact dyadic numbers throughout.
-    Exact,
-    /// Exact GMP rationals (only if built with the feature rug).
-    Rug,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -190,7 +183,7 @@ fn main() -> ExitCode {
 
 fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
     let options = Options {
-        insertion: insertion(arguments)?,
+        insertion: insertion(arguments),
         keep_hull: arguments.hull,
         merge_coplanar: !arguments.no_merge,
     };
@@ -214,7 +207,10 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         write_report(path, &arguments.input, &outcome, &report)?;
     }
     let mesh = result.map_err(|failure| Stop {
-        message: outcome,
+        message: match failure.region() {
+            Some(region) => outcome + &dump_region(arguments, region),
+            None => outcome,
+        },
         status: if matches!(failure, Failure::GaveUp(_)) {
             1
         } else {
@@ -256,24 +252,37 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
     Ok(())
 }
 
-fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
-    if arguments.insert == InsertArgument::Cavity {
-        return Ok(Insertion::Cavity);
+fn insertion(arguments: &MeshArguments) -> Insertion {
+    match arguments.insert {
+        InsertArgument::Cavity => Insertion::Cavity,
+        InsertArgument::GiftWrap => Insertion::GiftWrap,
+        InsertArgument::Flip => Insertion::Flip(arguments.times),
     }
-    Ok(Insertion::Flip(match arguments.times {
-        TimesArgument::F32 => Times::F32,
-        TimesArgument::F64 => Times::F64,
-        TimesArgument::Filtered => Times::Filtered,
-        TimesArgument::Exact => Times::Exact,
-        #[cfg(feature = "rug")]
-        TimesArgument::Rug => Times::Rug,
-        #[cfg(not(feature = "rug"))]
-        TimesArgument::Rug => {
-            return Err(Stop::input(
-                "this program was built without GMP; build it with --features rug",
-            ));
-        }
-    }))
+}
+
+/// Where the region of failed flips goes: beside the mesh that is not made.
+fn failure_path(output: &Path) -> PathBuf {
+    output.with_extension("failure.poly")
+}
+
+/// Writes the region of failed flips, and says where it is and how to try again.
+fn dump_region(arguments: &MeshArguments, region: &Plc) -> String {
+    let Some(output) = &arguments.output else {
+        return "; with --output, the region is written beside it".to_owned();
+    };
+    let path = failure_path(output);
+    if let Err(error) = write_poly(&path, region) {
+        return format!("; the region cannot be written: {error}");
+    }
+    let times = match insertion(arguments) {
+        Insertion::Flip(times) => times,
+        // What cavities fall back on.
+        Insertion::Cavity | Insertion::GiftWrap => Times::Filtered,
+    };
+    let path = path.display();
+    format!(
+        "\nits region is in {path}; try again with: tetflip mesh {path} --hull --insert flip --times {times}"
+    )
 }
 
 fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
@@ -396,6 +405,7 @@ fn check_outputs(input: &Path, mesh: Option<&Path>, report: Option<&Path>) -> Re
     let mut outputs: Vec<PathBuf> = report.map(Path::to_path_buf).into_iter().collect();
     if let Some(path) = mesh {
         outputs.extend(mesh_paths(path).map_err(Stop::input)?);
+        outputs.push(failure_path(path));
     }
     let node = input.with_extension("node");
     for output in outputs {

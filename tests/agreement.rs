@@ -1,4 +1,4 @@
-//! Cavity insertion, exact flips in every number type, and every order of insertion end in the same tetrahedra, and the
+//! Cavity insertion, gift wrapping, exact flips in every number type, and every order of insertion end in the same tetrahedra, and the
 //! exact verifier accepts them.
 
 mod common;
@@ -8,8 +8,8 @@ use common::{plc_of_points, quiet};
 use proptest::prelude::*;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::error::{Failure, GaveUp};
-use tetflip::mesh::ExportedMesh;
-use tetflip::plc::Plc;
+use tetflip::mesh::{ExportedMesh, VertexId};
+use tetflip::plc::{Facet, Plc};
 use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
@@ -60,6 +60,11 @@ fn agree(plc: &Plc) -> Option<ExportedMesh> {
         ),
     };
     assert_eq!(flips.0, cavity.0);
+    let wrapped = run(plc, Insertion::GiftWrap).expect("flips are its last resort");
+    assert_eq!(wrapped.0, flips.0);
+    if wrapped.1.not_flat == 0 {
+        assert_eq!(wrapped.1.flip_fallbacks + cavity.1.flip_fallbacks, 0);
+    }
     let filtered = run(plc, Insertion::Flip(Times::Filtered)).expect("as with exact times");
     assert_eq!(filtered.0, flips.0);
     assert_eq!(
@@ -114,7 +119,7 @@ proptest! {
         let (mut reordered, n) = (plc.clone(), plc.facets.len());
         reordered.facets.swap(0, seed % n);
         reordered.facets.swap(1, seed / n % n);
-        for insertion in [Insertion::Cavity, Insertion::Flip(Times::Exact)] {
+        for insertion in [Insertion::Cavity, Insertion::GiftWrap, Insertion::Flip(Times::Exact)] {
             let (Ok(a), Ok(b)) = (run(&plc, insertion), run(&reordered, insertion)) else { continue };
             // Segments are numbered by first appearance, so Steiner points may differ; without them the meshes are equal.
             if a.0.vertices.len() == plc.vertices.len() {
@@ -176,7 +181,58 @@ fn cavities_swallow_and_displace() {
         if counts.swallowed > 0 {
             let flips = run(&plc, Insertion::Flip(Times::Filtered)).expect("as by cavities");
             assert_eq!(mesh, flips.0);
+            // Where a cavity grows, one of its walls is not Delaunay, and hides vertices.
+            let wrapped = run(&plc, Insertion::GiftWrap).expect("as by cavities");
+            assert_eq!(mesh, wrapped.0);
+            assert_eq!(wrapped.1.flip_fallbacks, 0);
         }
     }
     assert!(swallowed > 0 && displaced > 0 && reinserted > 0);
+}
+
+/// Segments in f part its missing region so that one part is next to no edge that is in the mesh at first.
+#[test]
+fn a_region_may_hide_behind_another() {
+    let vertices = [
+        [0, 2, 0],
+        [5, 2, 2],
+        [2, 3, 0],
+        [3, 0, -1],
+        [-2, -2, 0],
+        [4, 2, 0],
+        [2, -3, 0],
+        [-7, 7, 0],
+        [7, 7, 0],
+        [-2, 2, 0],
+        [-7, -7, 0],
+        [3, 1, 1],
+        [-4, -2, 0],
+        [4, -2, 0],
+        [7, -7, 0],
+        [-3, 4, 3],
+        [2, 3, -1],
+        [-4, 2, 0],
+        [5, 4, 2],
+        [0, -2, 0],
+        [5, -5, -1],
+        [-3, 4, -3],
+    ];
+    let ids = |polygon: &[u32]| polygon.iter().map(|&v| VertexId(v)).collect();
+    let polygons: [&[u32]; 6] = [
+        &[10, 14, 8, 7],
+        &[12, 17],
+        &[4, 9],
+        &[19, 0],
+        &[6, 2],
+        &[13, 5],
+    ];
+    let plc = Plc {
+        vertices: vertices.map(|p| p.map(f64::from)).to_vec(),
+        facets: vec![Facet {
+            polygons: polygons.map(ids).to_vec(),
+            ..Facet::default()
+        }],
+        ..Plc::default()
+    };
+    assert!(agree(&plc).is_some());
 }

@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use tetflip::format::{
-    FormatError, Place, Reason, read_node, read_off, read_poly, read_smesh, read_stl,
+    FormatError, Place, Reason, read_node, read_off, read_plc, read_poly, read_smesh, read_stl,
+    write_poly,
 };
 use tetflip::mesh::VertexId;
 use tetflip::plc::Plc;
@@ -97,6 +98,20 @@ fn poly_has_all_its_parts() {
         (plc.regions[1].attribute, plc.regions[1].max_volume),
         (20.0, Some(0.25))
     );
+}
+
+/// Shortest digits, every sign of zero, subnormal numbers, all sections.
+#[test]
+fn poly_is_written_as_it_is_read() {
+    let place = tempfile::tempdir().expect("a temporary directory");
+    let path = place.path().join("a.poly");
+    let mut plc = poly(POLY).expect("a good file");
+    plc.vertices[1] = [0.1, -5e-324, 1.7976931348623157e308];
+    plc.vertices[2] = [-0.0, 1e15, 4f64.next_up()];
+    write_poly(&path, &plc).expect("a writable directory");
+    let read = read_plc(&path).expect("what was written");
+    assert_eq!(read, plc);
+    assert!(read.vertices[2][0].is_sign_negative());
 }
 
 #[test]

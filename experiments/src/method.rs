@@ -8,7 +8,8 @@ use tetflip::recover::polygons::{Insertion, Times};
 pub struct Method(pub Insertion);
 
 impl Method {
-    /// All ways that this build has, in the order of tables: cavity retriangulation, then flips with each number type.
+    /// The ways to compare at all sizes, in the order of tables: cavity retriangulation, then flips with each number type
+    /// that this build has. Gift wrapping takes quadratic time and is not among them.
     pub fn all() -> Vec<Method> {
         let times = [
             Times::F32,
@@ -29,26 +30,25 @@ impl Method {
     pub fn insertion(self) -> &'static str {
         match self.0 {
             Insertion::Cavity => "cavity",
+            Insertion::GiftWrap => "gift-wrap",
             Insertion::Flip(_) => "flip",
         }
     }
 
-    /// The number type of the flip times: the column `times`. Cavities have none.
-    pub fn times(self) -> &'static str {
+    /// The number type of the flip times: the column `times`. Only flips have them.
+    pub fn times(self) -> String {
         match self.0 {
-            Insertion::Cavity => "",
-            Insertion::Flip(Times::F32) => "f32",
-            Insertion::Flip(Times::F64) => "f64",
-            Insertion::Flip(Times::Filtered) => "filtered",
-            Insertion::Flip(Times::Exact) => "exact",
-            #[cfg(feature = "rug")]
-            Insertion::Flip(Times::Rug) => "rug",
+            Insertion::Cavity | Insertion::GiftWrap => String::new(),
+            Insertion::Flip(times) => times.to_string(),
         }
     }
 
     /// Whether a flat polygon can always be inserted in this way. Rounded flip times can fail (paper, §3.4).
     pub fn always_succeeds(self) -> bool {
-        !matches!(self.0, Insertion::Flip(Times::F32 | Times::F64))
+        match self.0 {
+            Insertion::Cavity | Insertion::GiftWrap => true,
+            Insertion::Flip(times) => times.is_exact(),
+        }
     }
 }
 
@@ -70,13 +70,15 @@ mod tests {
         assert_eq!(names[..3], ["cavity", "flip f32", "flip f64"]);
         assert_eq!(names[3..5], ["flip exact", "flip filtered"]);
         assert_eq!(names.len(), if cfg!(feature = "rug") { 6 } else { 5 });
+        let wrapping = Method(Insertion::GiftWrap).to_string();
+        assert!(wrapping == "gift-wrap" && !names.contains(&wrapping));
     }
 
     #[test]
     fn only_rounded_times_may_fail() {
         let safe = Method::all().into_iter().filter(|m| m.always_succeeds());
-        let times: Vec<&str> = safe.map(Method::times).collect();
+        let times: Vec<String> = safe.map(Method::times).collect();
         assert_eq!(times[..3], ["", "exact", "filtered"]);
-        assert!(!times.iter().any(|t| ["f32", "f64"].contains(t)));
+        assert!(!times.iter().any(|t| ["f32", "f64"].contains(&t.as_str())));
     }
 }

@@ -19,16 +19,22 @@ pub fn word<T>(result: &Result<T, Failure>) -> &'static str {
             GaveUp::Stuck { .. } => "stuck",
             GaveUp::NotDelaunay { .. } => "not-delaunay",
             GaveUp::FlipOrder { .. } => "flip-order",
+            GaveUp::Inverted { .. } => "inverted",
+            GaveUp::Displaced { .. } => "displaced",
+            GaveUp::Endless { .. } => "endless",
             GaveUp::NothingInside => "nothing-inside",
         },
     }
 }
 
-/// The column `left`: the crossing tetrahedra that stuck flips left, or the faces that are not locally Delaunay.
+/// The column `left`: the crossing tetrahedra that stuck flips left, the faces that are not locally Delaunay, the inverted
+/// tetrahedra, or the displaced triangles of other polygons.
 pub fn left<T>(result: &Result<T, Failure>) -> usize {
     match result {
         Err(Failure::GaveUp(GaveUp::Stuck { crossing, .. })) => *crossing,
         Err(Failure::GaveUp(GaveUp::NotDelaunay { faces, .. })) => *faces,
+        Err(Failure::GaveUp(GaveUp::Inverted { tets, .. })) => *tets,
+        Err(Failure::GaveUp(GaveUp::Displaced { triangles, .. })) => *triangles,
         _ => 0,
     }
 }
@@ -47,8 +53,13 @@ mod tests {
         let stuck = failed(GaveUp::Stuck {
             facets: facets.clone(),
             crossing: 5,
+            region: Box::default(),
         });
-        let dented = failed(GaveUp::NotDelaunay { facets, faces: 2 });
+        let dented = failed(GaveUp::NotDelaunay {
+            facets,
+            faces: 2,
+            region: Box::default(),
+        });
         assert_eq!((word(&stuck), left(&stuck)), ("stuck", 5));
         assert_eq!((word(&dented), left(&dented)), ("not-delaunay", 2));
         assert_eq!((word(&Ok(())), left(&Ok(()))), (OK, 0));

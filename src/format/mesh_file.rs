@@ -139,13 +139,13 @@ fn check(mesh: &ExportedMesh) -> Result<(), UnwritableMesh> {
 }
 
 /// A file that is complete but still has a temporary name. Dropped, it is gone.
-struct Staged {
+pub(super) struct Staged {
     file: NamedTempFile,
     path: PathBuf,
 }
 
 impl Staged {
-    fn publish(self) -> Result<PathBuf, MeshFileError> {
+    pub fn publish(self) -> Result<PathBuf, MeshFileError> {
         match self.file.persist(&self.path) {
             Ok(_) => Ok(self.path),
             Err(error) => Err(MeshFileError::Io {
@@ -156,7 +156,7 @@ impl Staged {
     }
 }
 
-fn stage(
+pub(super) fn stage(
     path: PathBuf,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<Staged, MeshFileError> {

@@ -9,6 +9,7 @@ mod mesh_error;
 mod mesh_file;
 mod off;
 mod poly;
+mod poly_file;
 mod stl;
 mod tetgen_mesh;
 mod text;
@@ -19,6 +20,7 @@ pub use mesh_error::{MeshFileError, MeshLineError, UnwritableMesh};
 pub use mesh_file::{mesh_paths, read_mesh, write_mesh};
 pub use off::read_off;
 pub use poly::{read_node, read_poly, read_smesh};
+pub use poly_file::write_poly;
 pub use stl::read_stl;
 
 use crate::plc::Plc;

@@ -1,6 +1,7 @@
 //! The tetrahedral mesh: topology alone. Nothing here knows a coordinate or a number type.
 
 mod export;
+mod flip;
 mod ids;
 mod incidence;
 mod topology;

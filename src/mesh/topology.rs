@@ -10,7 +10,6 @@
 //! Memory: 32 bytes per tetrahedron.
 
 use super::{Corner, TetId, VertexId};
-use arrayvec::ArrayVec;
 use rustc_hash::FxHashMap;
 
 /// `FACET[i]` completes `i` to an even permutation of 0123, so `[i, FACET[i]..]` keeps orientation.
@@ -270,38 +269,16 @@ impl TetMesh {
         ids
     }
 
-    /// [`TetMesh::replace`] for the few tetrahedra of a bistellar flip, without allocation: at most four on either side.
-    ///
-    /// # Panics
-    /// If the new tetrahedra do not fill the space of the old ones.
-    pub fn replace_few(&mut self, old: &[TetId], new: &[[VertexId; 4]]) -> ArrayVec<TetId, 4> {
-        let mut open: ArrayVec<([VertexId; 3], Corner), 16> = ArrayVec::new();
-        for &t in old {
-            for c in (0..4).map(|slot| t.corner(slot)) {
-                let outside = self.twin(c);
-                if !old.contains(&outside.tet()) {
-                    open.push((sorted(self.facet(c)), outside));
-                }
-            }
+    /// Gives `t` new vertices and what lies across its facets, which is told the converse.
+    #[inline]
+    pub(super) fn put(&mut self, t: TetId, vertices: [VertexId; 4], across: [Corner; 4]) {
+        self.tets[t.index()] = Tet {
+            vertices,
+            twins: across,
+        };
+        for (slot, c) in across.into_iter().enumerate() {
+            self.tets[c.tet().index()].twins[c.slot()] = t.corner(slot);
         }
-        for &t in old {
-            self.remove(t);
-        }
-        let ids: ArrayVec<TetId, 4> = new.iter().map(|&v| self.add(v)).collect();
-        for &t in &ids {
-            for c in (0..4).map(|slot| t.corner(slot)) {
-                let facet = sorted(self.facet(c));
-                match open.iter().position(|(f, _)| *f == facet) {
-                    Some(i) => self.glue(c, open.swap_remove(i).1),
-                    None => open.push((facet, c)),
-                }
-            }
-        }
-        assert!(
-            open.is_empty(),
-            "new tetrahedra fill the space of the old ones"
-        );
-        ids
     }
 
     /// Whether [`TetMesh::replace`] would find that `new` fills the space of `old`: the facets that only one of the new
@@ -478,22 +455,6 @@ mod tests {
         ] {
             assert_eq!(sorted(ids(p)), ids([0, 1, 2]));
         }
-    }
-
-    #[test]
-    fn replace_few_is_replace() {
-        let few = sphere();
-        // Vertex 4 is put into the finite tetrahedron and taken out again.
-        let mut mesh = few.clone();
-        let t = mesh.finite().next().expect("one finite tetrahedron");
-        let v = mesh.vertices(t);
-        let around = FACET.map(|[j, k, l]| [VertexId(4), v[j], v[k], v[l]]);
-        let created = mesh.replace_few(&[t], &around);
-        assert_eq!(mesh.check(), Ok(()));
-        assert_eq!(mesh.finite().count(), 4);
-        let back = mesh.replace_few(&created, &[v]);
-        assert_eq!(mesh.check(), Ok(()));
-        assert_eq!((back.len(), mesh.len()), (1, few.len()));
     }
 
     #[test]

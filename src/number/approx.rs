@@ -6,7 +6,8 @@
 //! > (I1) |v| ≤ m  and  (I2) |v − x| ≤ k·u′·m,  where u = 2⁻⁵³ and u′ = 2u = 2⁻⁵².
 //!
 //! (The scheme is Burnikel, Funke & Seel 2001, with u′ a factor 2 above theirs; that factor pays for the rounding of m
-//! itself.) k is a small integer that depends on the formula alone, so that after inlining only v and m remain.
+//! itself.) k is a small integer that depends on the formula alone, so that after inlining, which we insist on, only v
+//! and m remain.
 //! Rounding is to nearest: fl(s) = s(1+δ), |δ| ≤ u, and s/(1+u) ≤ fl(s), for sums always and for products that do not
 //! underflow; a product that underflows errs by at most η/2 = 2⁻¹⁰⁷⁵ = u·T with T = 2⁻¹⁰²².
 //!
@@ -49,7 +50,7 @@ pub struct Approx {
 
 impl Approx {
     /// An upper bound of |value − x|.
-    #[inline]
+    #[inline(always)]
     pub fn error(&self) -> f64 {
         f64::from(self.index) * ROUNDING * self.magnitude * (1.0 + 8.0 * ROUNDING) + TINY
     }
@@ -62,6 +63,14 @@ impl Approx {
             magnitude,
             index,
         }
+    }
+
+    /// The same with a larger index, given as a constant: for values that come from memory, so that the compiler sees the
+    /// index of what is computed from them.
+    #[inline(always)]
+    pub(crate) fn with_index_at_most<const K: u32>(self) -> Approx {
+        debug_assert!(self.index <= K, "the index is what the formula says");
+        Approx { index: K, ..self }
     }
 
     /// k of the proof; 0 for a given double.
@@ -83,7 +92,7 @@ impl Approx {
     }
 
     /// The sign, where x is known to be an integer multiple of `quantum`, so that a small enough x is zero.
-    #[inline]
+    #[inline(always)]
     pub fn sign_on_grid(&self, quantum: f64) -> Option<Sign> {
         let error = self.error();
         if self.value > error {
@@ -97,7 +106,7 @@ impl Approx {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sum(self, other: &Approx, value: f64) -> Approx {
         if self.index == 0 && other.index == 0 {
             return Approx {
@@ -116,7 +125,7 @@ impl Approx {
 
 impl Add<&Approx> for Approx {
     type Output = Approx;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: &Approx) -> Approx {
         self.sum(other, self.value + other.value)
     }
@@ -124,7 +133,7 @@ impl Add<&Approx> for Approx {
 
 impl Sub<&Approx> for Approx {
     type Output = Approx;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: &Approx) -> Approx {
         self.sum(other, self.value - other.value)
     }
@@ -132,7 +141,7 @@ impl Sub<&Approx> for Approx {
 
 impl Mul<&Approx> for Approx {
     type Output = Approx;
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: &Approx) -> Approx {
         Approx {
             value: self.value * other.value,
@@ -143,7 +152,7 @@ impl Mul<&Approx> for Approx {
 }
 
 impl Number for Approx {
-    #[inline]
+    #[inline(always)]
     fn from_f64(x: f64) -> Approx {
         Approx {
             value: x,

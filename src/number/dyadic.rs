@@ -3,13 +3,14 @@
 
 use super::{Exact, Number, Sign};
 use dashu_int::IBig;
+use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
 
 /// m·2^e with an integer m of any size. Not kept in lowest terms; equality compares values.
 #[derive(Clone, Debug)]
 pub struct Dyadic {
-    mantissa: IBig,
-    exponent: i64,
+    pub(super) mantissa: IBig,
+    pub(super) exponent: i64,
 }
 
 impl Dyadic {
@@ -108,6 +109,18 @@ impl PartialEq for Dyadic {
 }
 
 impl Eq for Dyadic {}
+
+impl PartialOrd for Dyadic {
+    fn partial_cmp(&self, other: &Dyadic) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Dyadic {
+    fn cmp(&self, other: &Dyadic) -> Ordering {
+        (self.clone() - other).mantissa.cmp(&IBig::ZERO)
+    }
+}
 
 impl Number for Dyadic {
     fn from_f64(x: f64) -> Dyadic {

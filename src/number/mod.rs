@@ -6,6 +6,7 @@
 //! | type | what it is | its sign |
 //! |---|---|---|
 //! | `f32`, `f64` | naive rounding, for the experiments | always answers, and may lie |
+//! | [`Wide`] | a float of any number of mantissa bits, for the experiments | always answers, and may lie |
 //! | [`Approx`] | `f64` with a running error bound, the filter | true or unknown |
 //! | [`Dyadic`] | m·2^e, the ring that doubles generate | exact |
 //! | `num_rational::BigRational` | rationals, for comparison and tests | exact |
@@ -19,11 +20,14 @@ mod float;
 mod rational;
 mod sign;
 mod vector;
+mod wide;
 
 pub use approx::Approx;
 pub use dyadic::Dyadic;
+pub use float::Float;
 pub use sign::Sign;
 pub use vector::Vec3;
+pub use wide::{Bits, UnknownBits, Wide, WidthTask};
 
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};
@@ -36,7 +40,8 @@ pub trait Number:
     + for<'a> Sub<&'a Self, Output = Self>
     + for<'a> Mul<&'a Self, Output = Self>
 {
-    /// The number nearest to the finite double `x`: `x` itself for every type but `f32`.
+    /// The number nearest to the finite double `x`: `x` itself for every type but `f32` and
+    /// [`Wide`].
     fn from_f64(x: f64) -> Self;
 
     /// The sign, or `None` where rounding has lost it. Never `None` for an [`Exact`] type; the naive floats

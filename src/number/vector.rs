@@ -14,7 +14,7 @@ impl<N: Number> Vec3<N> {
     }
 
     /// self − other.
-    #[inline]
+    #[inline(always)]
     pub fn sub(&self, other: &Self) -> Self {
         let [ax, ay, az] = &self.0;
         let [bx, by, bz] = &other.0;
@@ -22,7 +22,7 @@ impl<N: Number> Vec3<N> {
     }
 
     /// self · other.
-    #[inline]
+    #[inline(always)]
     pub fn dot(&self, other: &Self) -> N {
         let [ax, ay, az] = &self.0;
         let [bx, by, bz] = &other.0;
@@ -30,7 +30,7 @@ impl<N: Number> Vec3<N> {
     }
 
     /// self × other.
-    #[inline]
+    #[inline(always)]
     pub fn cross(&self, other: &Self) -> Self {
         let [ax, ay, az] = &self.0;
         let [bx, by, bz] = &other.0;

@@ -42,7 +42,7 @@ pub struct Lifted<N> {
 
 impl<N: Number> Lifted<N> {
     /// From x − v, y − v, z − v.
-    #[inline]
+    #[inline(always)]
     pub fn new([x, y, z]: [&Vec3<N>; 3]) -> Self {
         let crosses = [y.cross(z), z.cross(x), x.cross(y)];
         Lifted {
@@ -52,17 +52,40 @@ impl<N: Number> Lifted<N> {
     }
 
     /// G for the heights of x, y, z relative to that of v.
-    #[inline]
+    #[inline(always)]
     pub fn gradient(&self, heights: [&N; 3]) -> Vec3<N> {
-        let component = |i: usize| {
-            let [x, y, z] = [0, 1, 2].map(|j: usize| heights[j].clone() * &self.crosses[j].0[i]);
-            x + &y + &z
-        };
+        let [hx, hy, hz] = heights;
+        let [x, y, z] = &self.crosses;
+        let component =
+            |i: usize| hx.clone() * &x.0[i] + &(hy.clone() * &y.0[i]) + &(hz.clone() * &z.0[i]);
         Vec3([component(0), component(1), component(2)])
     }
 
+    /// The same with other numbers in place of the volume and the cross products.
+    #[inline(always)]
+    pub fn map(&self, volume: impl Fn(&N) -> N, cross: impl Fn(&Vec3<N>) -> Vec3<N>) -> Self {
+        let [x, y, z] = &self.crosses;
+        Lifted {
+            volume: volume(&self.volume),
+            crosses: [cross(x), cross(y), cross(z)],
+        }
+    }
+
+    /// V.
+    #[inline(always)]
+    pub fn volume(&self) -> &N {
+        &self.volume
+    }
+
+    /// The volumes of the tetrahedron with w in place of x, of y, of z, from w − v: V times the barycentric coordinates of w.
+    #[inline(always)]
+    pub fn with_in_place(&self, w: &Vec3<N>) -> [N; 3] {
+        let [x, y, z] = &self.crosses;
+        [w.dot(x), w.dot(y), w.dot(z)]
+    }
+
     /// orient4d(v,x,y,z,w), from G, w − v and the height of w relative to that of v.
-    #[inline]
+    #[inline(always)]
     pub fn below(&self, gradient: &Vec3<N>, w: &Vec3<N>, height: &N) -> N {
         gradient.dot(w) - &(self.volume.clone() * height)
     }

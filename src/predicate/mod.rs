@@ -5,9 +5,11 @@
 
 mod double_points;
 pub mod formula;
+mod naive;
 mod perturbation;
 mod store;
 
 pub use double_points::DoublePoints;
+pub use naive::NaivePoints;
 pub use perturbation::perturbed_sign;
 pub use store::PointStore;

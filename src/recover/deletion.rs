@@ -5,17 +5,13 @@
 //! the region that is flipped, not to the mesh.
 
 use super::cavity::{Face, face};
-use super::flips::{
-    Blocked, Deleted, ExactTimes, FilteredTimes, FlipCounts, FlipDeletion, FlipTimes, Kept, Motion,
-    RoundedTimes,
-};
+use super::flips::{Blocked, FlipCounts, Kept, flip_delete};
 use super::method::Times;
 use super::polygons::{Scratch, Subpolygons, boundary_subsegments};
 use super::segments::{SegmentIndex, Subsegments};
-use super::side::{Side, Sides};
+use super::side::Sides;
 use crate::error::{DeletionRefused, Obstacle};
 use crate::mesh::{Corner, Incidence, TetId, TetMesh, VertexId};
-use crate::number::Dyadic;
 use crate::plc::Complex;
 use crate::predicate::PointStore;
 use rustc_hash::FxHashSet;
@@ -95,19 +91,13 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
     ) -> Result<DeletionCounts, Blocked> {
         let corners = self.faces(f, boundary);
         let faces: Vec<Face> = corners.iter().map(|&c| face(self.mesh.facet(c))).collect();
-        let is_left = |v: VertexId| sides.of(v) == Side::Left;
-        let numbers = std::mem::take(&mut self.scratch.numbers);
-        let motion = Motion::with_numbers(self.points, sides.frame, &is_left, numbers);
-        let m = &motion;
-        let deleted = match times {
-            Times::F32 => self.run(f, &corners, RoundedTimes::<P, f32>::new(m)),
-            Times::F64 => self.run(f, &corners, RoundedTimes::<P, f64>::new(m)),
-            Times::Filtered => self.run(f, &corners, FilteredTimes::new(m)),
-            Times::Exact => self.run(f, &corners, ExactTimes::<P, Dyadic>::new(m)),
-            #[cfg(feature = "rug")]
-            Times::Rug => self.run(f, &corners, ExactTimes::<P, rug::Rational>::new(m)),
+        let (subsegments, subpolygons) = (self.subsegments, &*self.subpolygons);
+        let kept = Kept {
+            edge: &|[a, b]| subsegments.segment_of(a, b).is_some(),
+            triangle: &|t| subpolygons.get(&t).is_some_and(|&g| g as usize != f),
         };
-        self.scratch.numbers = motion.into_numbers();
+        let scratch = &mut self.scratch.flips;
+        let deleted = flip_delete(self.mesh, sides, &corners, kept, times, scratch);
         self.incidence.update(self.mesh, &deleted.tets);
         if let Some(blocked) = deleted.blocked {
             return Err(blocked);
@@ -121,16 +111,6 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
             created: deleted.tets.len() as u64,
             flips: deleted.counts,
         })
-    }
-
-    fn run<C: FlipTimes>(&mut self, f: usize, faces: &[Corner], times: C) -> Deleted {
-        let (subsegments, subpolygons) = (self.subsegments, &*self.subpolygons);
-        let kept = Kept {
-            edge: &|[a, b]| subsegments.segment_of(a, b).is_some(),
-            triangle: &|t| subpolygons.get(&t).is_some_and(|&g| g as usize != f),
-        };
-        FlipDeletion::new(self.mesh, self.points, kept, times, &mut self.scratch.marks)
-            .delete(faces)
     }
 
     /// The triangles of f, found from its boundary inwards.

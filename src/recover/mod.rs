@@ -4,7 +4,11 @@
 pub mod cavity;
 pub mod deletion;
 pub mod domain;
+pub mod dump;
 pub mod flips;
+pub mod gift_wrap;
+mod graft;
+mod judge;
 pub mod method;
 pub mod missing;
 pub mod polygons;
@@ -13,4 +17,5 @@ pub mod scout;
 pub mod scratch;
 pub mod segments;
 pub mod side;
+mod sight;
 pub mod split;

@@ -1,19 +1,16 @@
-//! All polygons, one missing region at a time, by either algorithm (paper §3, §3.3).
+//! All polygons, one missing region at a time, by any of the algorithms (paper §3, §3.3).
 
-use super::cavity::{self, Face, Refused, face};
-use super::flips::{
-    ExactTimes, FilteredTimes, FlipInsertion, FlipOutcome, FlipTimes, Motion, RoundedTimes,
-    VertexNumbers, Watch, polygon_faces,
-};
+use super::cavity::{Face, face};
+use super::dump::region_as_plc;
+use super::flips::{FlipOutcome, FlipScratch, Flipped, Watch, flip_insert, polygon_faces};
+use super::judge::{Judge, RegionFailure, inner_subpolygons};
 pub use super::method::{Insertion, PolygonCounts, Times};
 use super::missing::{self, Obstacle};
 use super::region::Region;
-use super::scratch::Table;
 use super::segments::{SegmentIndex, Subsegments};
 use super::side::{Side, SideTable, Sides};
 use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
-use crate::number::Dyadic;
 use crate::plc::{Complex, Polygon};
 use crate::predicate::PointStore;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -55,20 +52,15 @@ pub struct PolygonInsertion<'a, P> {
 /// Tables that are kept from polygon to polygon.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    pub(super) marks: Table<bool>,
-    pub(super) numbers: VertexNumbers,
+    pub(super) flips: FlipScratch,
     pub(super) sides: SideTable,
 }
 
+/// How often a polygon that is flat only to rounding is searched for missing regions.
+const ROUNDS_IF_NOT_FLAT: usize = 8;
+
 /// The triangles of a region's part of f, after its insertion.
 type Faces = Vec<[VertexId; 3]>;
-
-/// Why one region could not be inserted, in one orientation of f.
-enum RegionFailure {
-    Stuck(usize),
-    NotDelaunay(usize),
-    Impossible,
-}
 
 impl<P: PointStore> PolygonInsertion<'_, P> {
     /// Inserts all polygons of the complex that are not in the mesh. `progress` is told how many are done.
@@ -137,19 +129,25 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             self.counts.already_present += u64::from(covering.seeds.is_empty());
             self.counts.not_flat += u64::from(!flat);
         }
-        if !covering.seeds.is_empty() {
+        // A region may be hidden behind another one, from which segments inside f part it, until that one is inserted.
+        let mut rounds = 0;
+        while !covering.seeds.is_empty() {
             let faces: Faces = covering.faces.iter().map(|&c| self.mesh.facet(c)).collect();
             self.register(f, &faces);
+            let mut inserted = false;
             for &seed in &covering.seeds {
                 // The region of a seed may have been inserted with that of another one.
                 if self.mesh.is_alive(seed) && sides.crosses_tet(self.mesh, seed) {
                     displaced.extend(self.insert_region(f, sides, flat, seed, may_displace)?);
+                    inserted = true;
                 }
             }
-            covering = self.search(f, sides, boundary)?;
-            if !covering.seeds.is_empty() {
+            // Each round covers more of a flat f. If f is not flat nothing says so.
+            rounds += 1;
+            if !inserted || (!flat && rounds == ROUNDS_IF_NOT_FLAT) {
                 return Err(self.not_flat(f, NotFlatReason::AmbiguousSide));
             }
+            covering = self.search(f, sides, boundary)?;
         }
         // The corners are on the left side of f; seen from there, f lies to the left of its boundary edges.
         let seen_from_left = |[a, b, c]: [VertexId; 3]| [b, a, c];
@@ -201,36 +199,62 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         self.counts.regions += 1;
         self.counts.crossing_tets += region.tets.len() as u64;
         self.counts.largest_region = self.counts.largest_region.max(region.tets.len() as u64);
-        if self.insertion == Insertion::Cavity {
-            if let Some(displaced) = self.by_cavity(f, sides, &region, may_displace) {
-                return Ok(displaced);
-            }
-            if !flat
-                && let Some(displaced) = self.by_cavity(f, &sides.reversed(), &region, may_displace)
-            {
-                return Ok(displaced);
-            }
-            self.counts.cavity_fallbacks += 1;
-        }
         let times = match self.insertion {
-            Insertion::Cavity => Times::Filtered,
             Insertion::Flip(times) => times,
+            Insertion::Cavity | Insertion::GiftWrap => {
+                if let Some(displaced) = self.by_retriangulation(f, sides, &region, may_displace) {
+                    return Ok(displaced);
+                }
+                Times::Filtered
+            }
         };
         let mut result = self.by_flips(f, sides, flat, region, times);
         if !flat && let Err((_, region)) = result {
             result = self.by_flips(f, &sides.reversed(), flat, region, times);
         }
-        result.map(|()| Vec::new()).map_err(|(failure, _)| {
-            let facets = self.complex.polygons[f].facets.clone();
-            match failure {
-                RegionFailure::Stuck(crossing) if flat => GaveUp::Stuck { facets, crossing }.into(),
-                RegionFailure::NotDelaunay(faces) if flat => {
-                    GaveUp::NotDelaunay { facets, faces }.into()
-                }
-                RegionFailure::Impossible if flat => GaveUp::FlipOrder { facets }.into(),
-                _ => self.not_flat(f, NotFlatReason::Incompatible),
-            }
-        })
+        result
+            .map(|()| Vec::new())
+            .map_err(|(failure, region)| self.flips_failed(f, sides, &region, failure))
+    }
+
+    /// The failure of flips, with the region, which has been restored, as a PLC.
+    fn flips_failed(
+        &self,
+        f: usize,
+        sides: &Sides<P>,
+        region: &Region,
+        failure: RegionFailure,
+    ) -> Failure {
+        if !sides.flat {
+            return self.not_flat(f, NotFlatReason::Incompatible);
+        }
+        let facets = self.complex.polygons[f].facets.clone();
+        let region = Box::new(region_as_plc(self.mesh, sides, region, self.subpolygons));
+        match failure {
+            RegionFailure::Stuck(crossing) => GaveUp::Stuck {
+                facets,
+                crossing,
+                region,
+            },
+            RegionFailure::NotDelaunay(faces) => GaveUp::NotDelaunay {
+                facets,
+                faces,
+                region,
+            },
+            RegionFailure::Impossible => GaveUp::FlipOrder { facets, region },
+            RegionFailure::Inverted(tets) => GaveUp::Inverted {
+                facets,
+                tets,
+                region,
+            },
+            RegionFailure::Displaced(triangles) => GaveUp::Displaced {
+                facets,
+                triangles,
+                region,
+            },
+            RegionFailure::Endless => GaveUp::Endless { facets, region },
+        }
+        .into()
     }
 
     /// In a valid PLC no segment and no other polygon crosses f.
@@ -276,39 +300,6 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         Ok(())
     }
 
-    /// Cavity retriangulation of one region; `None` if it is refused.
-    fn by_cavity(
-        &mut self,
-        f: usize,
-        sides: &Sides<P>,
-        region: &Region,
-        may_displace: bool,
-    ) -> Option<Vec<usize>> {
-        let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
-        let result =
-            cavity::retriangulate(self.mesh, sides, region, &is_subpolygon).and_then(|r| {
-                if !may_displace && !r.displaced.is_empty() {
-                    Err(Refused::Displaces)
-                } else if self.mesh.can_replace(&r.old, &r.new) {
-                    Ok(r)
-                } else {
-                    Err(Refused::NotExposed)
-                }
-            });
-        let r = result.ok()?;
-        let created = self.mesh.replace(&r.old, &r.new);
-        self.incidence.update(self.mesh, &created);
-        self.counts.swallowed += r.swallowed as u64;
-        self.counts.displaced += r.displaced.len() as u64;
-        self.counts.shims += count_shims(self.mesh, sides, &created);
-        self.register(f, &r.faces);
-        let polygons = r
-            .displaced
-            .iter()
-            .filter_map(|t| self.subpolygons.remove(t));
-        Some(polygons.map(|g| g as usize).collect())
-    }
-
     /// Flips in one region. If they fail the region is restored, and given back.
     fn by_flips(
         &mut self,
@@ -323,27 +314,52 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         if let Some(watch) = &mut self.watch {
             watch.begin(f, sides.frame, &before);
         }
-        let is_left = |v: VertexId| sides.of(v) == Side::Left;
-        let numbers = std::mem::take(&mut self.scratch.numbers);
-        let motion = Motion::with_numbers(self.points, sides.frame, &is_left, numbers);
-        let m = &motion;
-        let (outcome, tets) = match times {
-            Times::F32 => self.run(sides, &region, RoundedTimes::<P, f32>::new(m)),
-            Times::F64 => self.run(sides, &region, RoundedTimes::<P, f64>::new(m)),
-            Times::Filtered => self.run(sides, &region, FilteredTimes::new(m)),
-            Times::Exact => self.run(sides, &region, ExactTimes::<P, Dyadic>::new(m)),
-            #[cfg(feature = "rug")]
-            Times::Rug => self.run(sides, &region, ExactTimes::<P, rug::Rational>::new(m)),
+        let inner = match times.is_exact() {
+            true => Vec::new(),
+            false => inner_subpolygons(self.mesh, &region, self.subpolygons),
         };
-        self.scratch.numbers = motion.into_numbers();
+        let watch = self.watch.as_deref_mut().map(|w| w as &mut dyn Watch);
+        let Flipped {
+            outcome,
+            tets,
+            counts,
+        } = flip_insert(
+            self.mesh,
+            sides,
+            &region,
+            times,
+            &mut self.scratch.flips,
+            watch,
+        );
+        self.counts.flips.add(&counts);
         self.incidence.update(self.mesh, &tets);
         let faces = polygon_faces(self.mesh, sides, &tets);
-        let failure = match outcome {
-            FlipOutcome::Stuck { crossing } => Some(RegionFailure::Stuck(crossing)),
-            FlipOutcome::Impossible => Some(RegionFailure::Impossible),
-            FlipOutcome::Done => self.check_delaunay(flat, times, &tets, &faces).err(),
+        let judge = Judge {
+            mesh: self.mesh,
+            sides,
+            tets: &tets,
+            subpolygons: self.subpolygons,
         };
-        if let Some(failure) = failure {
+        let verdict = match outcome {
+            FlipOutcome::Impossible => Err(RegionFailure::Impossible),
+            FlipOutcome::Endless => Err(RegionFailure::Endless),
+            // The sides were rounded, so that the outcome may be wrong.
+            _ if times.is_naive() => judge.check_orientation().and(judge.check_crossings()),
+            FlipOutcome::Stuck { crossing } => Err(RegionFailure::Stuck(crossing)),
+            FlipOutcome::Done => Ok(()),
+        };
+        // Exact times on a flat polygon of a valid PLC make the CDT, by proof; what is wrong with an invalid one is found
+        // and named by the next search. Rounded times can leave triangles that are not locally Delaunay, and so can a
+        // polygon that is not flat (paper, end of §3.2).
+        let verdict = if flat && times.is_exact() {
+            verdict
+        } else {
+            let on_f: Vec<Face> = faces.iter().map(|&t| face(t)).collect();
+            verdict
+                .and_then(|()| judge.check_subpolygons(&inner))
+                .and_then(|()| judge.check_delaunay(&on_f))
+        };
+        if let Err(failure) = verdict {
             let mut tets = self.mesh.replace(&tets, &before);
             self.incidence.update(self.mesh, &tets);
             tets.sort_unstable();
@@ -354,60 +370,8 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         Ok(())
     }
 
-    fn run<C: FlipTimes>(
-        &mut self,
-        sides: &Sides<P>,
-        region: &Region,
-        times: C,
-    ) -> (FlipOutcome, Vec<TetId>) {
-        let (outcome, tets, counts) =
-            FlipInsertion::new(self.mesh, sides, region, times, &mut self.scratch.marks)
-                .watched_by(self.watch.as_deref_mut().map(|w| w as &mut dyn Watch))
-                .insert(region);
-        self.counts.flips.add(&counts);
-        (outcome, tets)
-    }
-
-    /// Rounded times can leave triangles that are not locally Delaunay, and so can a polygon that is not flat (paper,
-    /// end of §3.2). Exact times on a flat polygon cannot.
-    fn check_delaunay(
-        &self,
-        flat: bool,
-        times: Times,
-        tets: &[TetId],
-        faces: &[[VertexId; 3]],
-    ) -> Result<(), RegionFailure> {
-        let proved = flat && !matches!(times, Times::F32 | Times::F64);
-        if proved {
-            // In a valid PLC, that is; what is wrong with an invalid one is found and named by the next search.
-            return Ok(());
-        }
-        let on_f: FxHashSet<Face> = faces.iter().map(|&t| face(t)).collect();
-        let corners = tets
-            .iter()
-            .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
-        let bad = corners
-            .filter(|&c| !self.mesh.is_ghost(self.mesh.neighbor(c)))
-            .filter(|&c| {
-                let [a, b, d, e] = self.mesh.vertices(c.tet());
-                self.points
-                    .insphere([a, b, d, e, self.mesh.apex_across(c)])
-                    .is_positive()
-            })
-            .filter(|&c| {
-                let t = face(self.mesh.facet(c));
-                !on_f.contains(&t) && !self.subpolygons.contains_key(&t)
-            })
-            .count();
-        if bad > 0 {
-            Err(RegionFailure::NotDelaunay(bad))
-        } else {
-            Ok(())
-        }
-    }
-
     /// Notes the triangles with which an insertion covered f.
-    fn register(&mut self, f: usize, faces: &Faces) {
+    pub(super) fn register(&mut self, f: usize, faces: &Faces) {
         self.candidates.extend(faces.iter().map(|&t| face(t)));
         self.subpolygons
             .extend(faces.iter().map(|&t| (face(t), f as u32)));
@@ -502,7 +466,7 @@ pub(super) fn boundary_subsegments(
         .collect()
 }
 
-fn count_shims<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, tets: &[TetId]) -> u64 {
+pub(super) fn count_shims<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, tets: &[TetId]) -> u64 {
     let is_shim = |&&t: &&TetId| mesh.vertices(t).iter().all(|&v| sides.of(v) == Side::On);
     tets.iter().filter(is_shim).count() as u64
 }

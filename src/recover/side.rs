@@ -91,6 +91,19 @@ impl<'a, P: PointStore> Sides<'a, P> {
         }
     }
 
+    /// The same polygon as another view of the points shows it. Which vertices are its own, and whether it is flat, stays
+    /// as it is.
+    pub fn seen_through<'b, Q>(&self, points: &'b Q) -> Sides<'b, Q> {
+        Sides {
+            points,
+            frame: self.frame,
+            flat: self.flat,
+            is_reversed: self.is_reversed,
+            vertices: self.vertices.clone(),
+            known: RefCell::default(),
+        }
+    }
+
     /// Whether one who walks from a to b on f, on its left side, and then to c, turns left: the sign of
     /// n·((b−a)×(c−a)) with the normal n of the frame.
     pub fn turns_left(&self, a: VertexId, b: VertexId, c: VertexId) -> bool {

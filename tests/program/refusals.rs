@@ -221,12 +221,18 @@ fn bad_usage_ends_with_2() {
     place.refuses("mesh a.poly -o none/x.node", 2, &["none"]);
     place.refuses("mesh a.poly --report none/r.json", 2, &["none"]);
     #[cfg(not(feature = "rug"))]
-    place.refuses("mesh a.poly --times rug -o x.node", 2, &["--features rug"]);
+    {
+        let run = place.run("mesh a.poly --times rug -o x.node").ends_with(2);
+        assert!(run.stderr().contains("--features rug"), "{}", run.stderr());
+    }
+    let run = place.run("mesh a.poly --times bits:31").ends_with(2);
+    assert!(run.stderr().contains("8, 11, 14, 16"), "{}", run.stderr());
     for arguments in [
         "",
         "mesh",
         "frobnicate a.poly",
         "mesh a.poly --insert magic",
+        "mesh a.poly --times magic",
         "verify a.poly",
         "verify a.poly x.node --tolerance nan",
         "verify a.poly x.node --merge-angle 720",
@@ -243,6 +249,37 @@ fn bad_usage_ends_with_2() {
             .stdout()
             .starts_with("tetflip ")
     );
+}
+
+/// Ten points on a sphere and a square through it, on which rounded flip times fail.
+const SPHERE: &str = "10 3\n0 8 -2 0\n1 -4 4 -6\n2 80 80 -1\n3 -80 80 -1\n4 -2 -8 0\n5 -4 -6 4\n6 -80 -80 -1\n7 -2 8 0\n\
+    8 80 -80 -1\n9 2 8 0\n1 0\n1\n4 6 8 2 3\n0\n0\n";
+
+#[test]
+fn failed_flips_leave_their_region_to_try_again() {
+    let place = Place::with(&[("a.poly", SPHERE)]);
+    let run = place
+        .run("mesh a.poly --hull --times f64 -o x.node")
+        .ends_with(1);
+    let again = "tetflip mesh x.failure.poly --hull --insert flip --times f64";
+    assert!(
+        run.stderr().ends_with(&format!("{again}\n")),
+        "{}",
+        run.stderr()
+    );
+    assert_eq!(place.names(), ["a.poly", "x.failure.poly"]);
+    let again = again.strip_prefix("tetflip ").expect("the program");
+    place.refuses(again, 1, &["7 crossing tetrahedra left", "--output"]);
+    // The region is the input now, and not overwritten.
+    place.refuses(
+        &format!("{again} -o x.node"),
+        2,
+        &["x.failure.poly", "overwritten"],
+    );
+    place
+        .run("mesh x.failure.poly --hull --verify")
+        .ends_with(0);
+    place.refuses("mesh a.poly --hull --times f64", 1, &["--output"]);
 }
 
 #[cfg(unix)]

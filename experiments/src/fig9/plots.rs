@@ -50,7 +50,7 @@ impl Figure {
     /// # Errors
     /// If there are none.
     pub fn svg(&self, rows: &[Row], methods: &[Method]) -> Result<String, PlotError> {
-        let has_exact_times = |m: Method| ["exact", "rug"].contains(&m.times());
+        let has_exact_times = |m: Method| ["exact", "rug"].contains(&m.times().as_str());
         let shown = methods
             .iter()
             .filter(|&&m| self.exact || !has_exact_times(m));

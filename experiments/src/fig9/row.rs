@@ -16,7 +16,7 @@ pub struct Row {
     pub regions: u64,
     pub crossing_tets: u64,
     pub insertion: &'static str,
-    pub times: &'static str,
+    pub times: String,
     pub repetitions: usize,
     pub median_seconds: Option<f64>,
     pub min_seconds: Option<f64>,
@@ -81,7 +81,7 @@ impl Row {
 
     /// Whether this is a run of `method`.
     pub fn is_of(&self, method: Method) -> bool {
-        (self.insertion, self.times) == (method.insertion(), method.times())
+        (self.insertion, &self.times) == (method.insertion(), &method.times())
     }
 
     /// Whether the run succeeded.

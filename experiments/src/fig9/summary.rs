@@ -19,7 +19,7 @@ pub struct Summary {
     /// The algorithm.
     pub insertion: &'static str,
     /// The number type of flip times.
-    pub times: &'static str,
+    pub times: String,
     /// Scenes in the class.
     pub scenes: usize,
     /// Runs among them that succeeded.
@@ -65,7 +65,7 @@ fn summary(class: &[&Row], method: Method, from: u64, below: Option<u64>) -> Sum
     let ratio_to = |insertion: &str, times: &str| {
         median_of(&|(row, seconds)| {
             let mut others = class.iter().filter(|r| r.same_scene(row));
-            let other = others.find(|r| (r.insertion, r.times) == (insertion, times))?;
+            let other = others.find(|r| (r.insertion, r.times.as_str()) == (insertion, times))?;
             Some(seconds / time(other)?)
         })
     };

@@ -63,7 +63,7 @@ pub struct Deleted {
 }
 
 /// An event that has been flipped, and when.
-type Flipped<C> = (Event, Timing<<C as FlipTimes>::Key, <C as FlipTimes>::Time>);
+type Performed<C> = (Event, Timing<<C as FlipTimes>::Key, <C as FlipTimes>::Time>);
 
 /// The deletion of one polygon.
 pub struct FlipDeletion<'a, P, C: FlipTimes> {
@@ -73,7 +73,7 @@ pub struct FlipDeletion<'a, P, C: FlipTimes> {
     times: C,
     queue: FlipQueue<C>,
     /// The last flip and its time.
-    last: Option<Flipped<C>>,
+    last: Option<Performed<C>>,
     /// Which tetrahedra were created by flips.
     created: &'a mut Table<bool>,
     /// The removed tetrahedra that were not.
@@ -184,30 +184,31 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
     fn flip(&mut self, s: Corner) -> Result<(FlipKind, Created), Blocked> {
         let flip = flip_of_triangle(self.points, self.mesh, s, [None; 3])
             .ok_or_else(|| Blocked::NoFlip(face(self.mesh.facet(s))))?;
-        if let Some([p, q, _]) = flip.edge
+        if let Some([p, q, _]) = flip.edge()
             && (self.kept.edge)([p, q])
         {
             return Err(Blocked::Edge([p, q]));
         }
-        for c in corners(&flip.old).filter(|&c| flip.old.contains(&self.mesh.neighbor(c))) {
+        let old = flip.old();
+        for c in corners(old).filter(|&c| old.contains(&self.mesh.neighbor(c))) {
             let vanishing = face(self.mesh.facet(c));
             if (self.kept.triangle)(vanishing) {
                 return Err(Blocked::Triangle(vanishing));
             }
         }
-        for &t in &flip.old {
+        for &t in old {
             if self.created.get(t.index()) {
                 self.created.reset(t.index());
             } else {
                 self.before.push(self.mesh.vertices(t));
             }
         }
-        let created = self.mesh.replace_few(&flip.old, &flip.new);
+        let created = flip.perform(self.mesh);
         for t in &created {
             self.created.set(t.index(), true);
         }
-        self.counts.count(flip.kind);
-        Ok((flip.kind, created))
+        self.counts.count(flip.kind());
+        Ok((flip.kind(), created))
     }
 
     /// Certifies the triangles on the boundary of the flipped volume, and those in the plane of a 4-4 flip, which is two

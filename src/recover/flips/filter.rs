@@ -51,6 +51,7 @@ pub(super) struct Evaluated {
 
 /// A tetrahedron in floats: what the evaluations of its facets have in common.
 pub struct LiftedTet {
+    ids: [VertexId; 4],
     origin: [f64; 5],
     others: [[f64; 5]; 3],
     lifted: Lifted<Approx>,
@@ -58,6 +59,17 @@ pub struct LiftedTet {
     rising: Vec3<Approx>,
     /// G for |p|², once needed.
     resting: Option<Vec3<Approx>>,
+}
+
+impl LiftedTet {
+    /// The lifted tetrahedron with error indices that are constants: volume 8 (as orient3d), cross products 4.
+    #[inline(always)]
+    fn lifted(&self) -> Lifted<Approx> {
+        self.lifted.map(
+            |volume| volume.with_index_at_most::<8>(),
+            with_index_at_most::<4>,
+        )
+    }
 }
 
 impl<'a, P: PointStore> Filter<'a, P> {
@@ -78,7 +90,7 @@ impl<'a, P: PointStore> Filter<'a, P> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn vertex(&mut self, v: VertexId) -> [f64; 5] {
         let number = self.motion.number(v);
         match self.known.get(number) {
@@ -107,24 +119,37 @@ impl<'a, P: PointStore> Filter<'a, P> {
     }
 
     /// Prepares the evaluation of the facets of a positive tetrahedron.
-    #[inline]
+    #[inline(always)]
     pub(super) fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
-        let [origin, a, b, c] = tet.map(|v| self.vertex(v));
-        let others = [a, b, c];
-        let [a, b, c] = others.each_ref().map(|p| from_origin(p, &origin));
-        let lifted = Lifted::new([&a, &b, &c]);
-        let [ra, rb, rc] = others.each_ref().map(|p| relative_rate(p, &origin));
+        let origin = self.vertex(tet[0]);
+        let (a, b, c) = (
+            self.vertex(tet[1]),
+            self.vertex(tet[2]),
+            self.vertex(tet[3]),
+        );
+        let (pa, pb, pc) = (
+            from_origin(&a, &origin),
+            from_origin(&b, &origin),
+            from_origin(&c, &origin),
+        );
+        let lifted = Lifted::new([&pa, &pb, &pc]);
+        let (ra, rb, rc) = (
+            relative_rate(&a, &origin),
+            relative_rate(&b, &origin),
+            relative_rate(&c, &origin),
+        );
         LiftedTet {
+            ids: tet,
             rising: lifted.gradient([&ra, &rb, &rc]),
             resting: None,
             origin,
-            others,
+            others: [a, b, c],
             lifted,
         }
     }
 
     /// N and D for the tetrahedron and the apex across one of its facets; `None` if certainly D ≤ 0.
-    #[inline]
+    #[inline(always)]
     pub(super) fn evaluate_across(
         &mut self,
         tet: &mut LiftedTet,
@@ -133,17 +158,27 @@ impl<'a, P: PointStore> Filter<'a, P> {
         let apex = self.vertex(apex);
         let w = from_origin(&apex, &tet.origin);
         let rate = relative_rate(&apex, &tet.origin);
-        let d = tet.lifted.below(&tet.rising, &w, &rate);
+        let lifted = tet.lifted();
+        // Rates 9, their products with cross products 14, two sums.
+        let rising = with_index_at_most::<16>(&tet.rising);
+        let d = lifted.below(&rising, &w, &rate);
         match d.sign_on_grid(self.grid.denominator) {
             Some(Sign::Negative | Sign::Zero) => return None,
             Some(Sign::Positive) | None => {}
         }
-        let (lifted, others, origin) = (&tet.lifted, &tet.others, &tet.origin);
-        let resting = tet.resting.get_or_insert_with(|| {
-            let [a, b, c] = others.each_ref().map(|p| from_origin(p, origin));
-            lifted.gradient([&a.dot(&a), &b.dot(&b), &c.dot(&c)])
-        });
-        let n = lifted.below(resting, &w, &w.dot(&w));
+        if tet.resting.is_none() {
+            let [a, b, c] = &tet.others;
+            let (a, b, c) = (
+                from_origin(a, &tet.origin),
+                from_origin(b, &tet.origin),
+                from_origin(c, &tet.origin),
+            );
+            tet.resting = Some(lifted.gradient([&a.dot(&a), &b.dot(&b), &c.dot(&c)]));
+        }
+        let resting = tet.resting.as_ref().expect("just computed");
+        // Squares 5, their products with cross products 10, two sums.
+        let resting = with_index_at_most::<12>(resting);
+        let n = lifted.below(&resting, &w, &w.dot(&w));
         let integers = match (
             in_quanta(&n, self.grid.numerator),
             in_quanta(&d, self.grid.denominator),
@@ -152,6 +187,26 @@ impl<'a, P: PointStore> Filter<'a, P> {
             _ => None,
         };
         Some(Evaluated { n, d, integers })
+    }
+
+    /// The signs of c_x, c_y, c_z of a circuit, for a triangle xyz of the lifted tetrahedron, where they are certain: the
+    /// volumes of the tetrahedron with the apex in place of x, of y, of z, negated.
+    #[inline(always)]
+    pub(super) fn signs(
+        &mut self,
+        tet: &LiftedTet,
+        [_, x, y, z, w]: [VertexId; 5],
+    ) -> [Option<Sign>; 3] {
+        let w = from_origin(&self.vertex(w), &tet.origin);
+        let lifted = tet.lifted();
+        let [a, b, c] = lifted.with_in_place(&w);
+        let o = *lifted.volume() - &a - &b - &c;
+        let sign = |v: Approx| v.sign_on_grid(self.grid.coefficient);
+        let volumes = [sign(o), sign(a), sign(b), sign(c)];
+        [x, y, z].map(|p| {
+            let place = tet.ids.iter().position(|&v| v == p);
+            volumes[place.expect("x, y, z are vertices of the tetrahedron")].map(|sign| -sign)
+        })
     }
 
     /// N and D of a circuit; `None` if certainly D ≤ 0.
@@ -173,15 +228,26 @@ impl<'a, P: PointStore> Filter<'a, P> {
     }
 }
 
+/// A vector with larger error indices, given as a constant.
+#[inline(always)]
+fn with_index_at_most<const K: u32>(v: &Vec3<Approx>) -> Vec3<Approx> {
+    let [x, y, z] = v.0;
+    Vec3([
+        x.with_index_at_most::<K>(),
+        y.with_index_at_most::<K>(),
+        z.with_index_at_most::<K>(),
+    ])
+}
+
 /// p − origin.
-#[inline]
+#[inline(always)]
 fn from_origin(p: &[f64; 5], origin: &[f64; 5]) -> Vec3<Approx> {
     let position = |&[x, y, z, _, _]: &[f64; 5]| Vec3::<Approx>::from_f64([x, y, z]);
     position(p).sub(&position(origin))
 }
 
 /// The rate at p less that at the origin.
-#[inline]
+#[inline(always)]
 fn relative_rate(p: &[f64; 5], origin: &[f64; 5]) -> Approx {
     let rate =
         |&[_, _, _, value, magnitude]: &[f64; 5]| Approx::with_bound(value, magnitude, RATE_INDEX);

@@ -158,10 +158,12 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
         let evaluated = self.filter.evaluate_across(lift, circuit[4])?;
         if evaluated.d.sign() != Some(Sign::Positive) {
             let quotient = self.exact.exact_quotient(circuit)?;
+            let signs = self.filter.signs(lift, circuit);
             let (middle, width) = (0.0, f32::INFINITY);
             return Some(Timing {
                 key: Enclosure { middle, width },
                 time: self.keep(Exactly::Big(Box::new(quotient))),
+                signs,
             });
         }
         let time = match evaluated.integers {
@@ -174,7 +176,8 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
             middle: middle * scale,
             width: ((width * scale) as f32).next_up(),
         };
-        Some(Timing { key, time })
+        let signs = self.filter.signs(lift, circuit);
+        Some(Timing { key, time, signs })
     }
 
     #[inline]

@@ -12,8 +12,10 @@ mod motion;
 mod moves;
 mod queue;
 mod rounded;
+mod run;
 mod time;
 mod watch;
+mod wide;
 
 pub use deletion::{Blocked, Deleted, FlipDeletion, Kept};
 pub use event::Event;
@@ -22,8 +24,10 @@ pub use motion::{LeftVertices, Motion, VertexNumbers};
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
 pub use rounded::RoundedTimes;
+pub use run::{FlipScratch, Flipped, flip_delete, flip_insert};
 pub use time::{ExactTimes, FlipTimes, Float, Quotient, Timed, Timing, Undecided};
 pub use watch::{Fate, Watch};
+pub use wide::WideTimes;
 
 use super::region::Region;
 use super::scratch::Table;
@@ -125,6 +129,14 @@ pub enum FlipOutcome {
     /// An event came off the exact queue with both tetrahedra in place, but its flip is impossible or would remove a
     /// tetrahedron outside R. With exact times and a flat polygon in an edge-protected PLC this cannot happen.
     Impossible,
+    /// Inexact orders only: more flips than any insertion needs.
+    Endless,
+}
+
+/// The most flips that an insertion into a region of `n` tetrahedra may do in an inexact order. Usually they are fewer
+/// than 5n.
+fn most_flips(n: usize) -> u64 {
+    1000 + 100 * n as u64
 }
 
 /// The tetrahedra that a flip created.
@@ -144,6 +156,8 @@ pub struct FlipInsertion<'a, P, C: FlipTimes> {
     /// The list L of §3.3.
     postponed: Vec<Event>,
     counts: FlipCounts,
+    /// In an inexact order nothing proves that the flips come to an end: all are refused after this many.
+    most_flips: u64,
     watch: Option<&'a mut dyn Watch>,
 }
 
@@ -168,6 +182,11 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             region: marks,
             postponed: Vec::new(),
             counts: FlipCounts::default(),
+            most_flips: if C::EXACT {
+                u64::MAX
+            } else {
+                most_flips(region.tets.len())
+            },
             watch: None,
         }
     }
@@ -217,6 +236,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                     outcome = FlipOutcome::Impossible;
                     break;
                 }
+                Err(Refused::Endless) => break,
                 Err(Refused::OutsideRegion) => {
                     self.counts.discarded_outside += 1;
                     self.tell(event.circuit, Fate::OutsideRegion);
@@ -238,6 +258,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         if crossing > 0 && outcome == FlipOutcome::Done {
             outcome = FlipOutcome::Stuck { crossing };
         }
+        if self.counts.flips() >= self.most_flips {
+            outcome = FlipOutcome::Endless;
+        }
         self.counts.record(&self.queue, &self.times);
         if let Some(watch) = self.watch {
             let vertices: Vec<_> = tets.iter().map(|&t| self.mesh.vertices(t)).collect();
@@ -258,11 +281,10 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         let Some(timing) = self.times.time_across(lift, circuit) else {
             return;
         };
-        let mut signs = [None; 3];
+        let signs = timing.signs;
         if C::EXACT {
-            signs = moves::signs(self.sides.points(), circuit).map(Some);
             let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs);
-            match flip.map(|flip| flip.edge) {
+            match flip.map(|flip| flip.edge()) {
                 Some(Some(edge)) if done.contains(&edge) => return,
                 Some(Some(edge)) => done.push(edge),
                 Some(None) => {}
@@ -307,20 +329,27 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         s: Corner,
         signs: [Option<Sign>; 3],
     ) -> Result<(FlipKind, Created), Refused> {
+        if self.counts.flips() >= self.most_flips {
+            return Err(Refused::Endless);
+        }
         let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs)
             .ok_or(Refused::Impossible)?;
-        if !flip.old.iter().all(|t| self.region.get(t.index())) {
+        if !flip.old().iter().all(|t| self.region.get(t.index())) {
             return Err(Refused::OutsideRegion);
         }
-        for t in &flip.old {
-            self.region.reset(t.index());
+        let created = flip.perform(self.mesh);
+        match flip {
+            Flip::TwoThree(..) => {
+                self.region.set(created[2].index(), true);
+                self.counts.two_three += 1;
+            }
+            Flip::ThreeTwo([_, _, gone], _) => {
+                self.region.reset(gone.index());
+                self.counts.three_two += 1;
+            }
+            Flip::FourFour(..) => self.counts.four_four += 1,
         }
-        let created = self.mesh.replace_few(&flip.old, &flip.new);
-        for t in &created {
-            self.region.set(t.index(), true);
-        }
-        self.counts.count(flip.kind);
-        Ok((flip.kind, created))
+        Ok((flip.kind(), created))
     }
 
     /// The second and third patch of §3.3, for rounded times, after a flip that created `created`.
@@ -331,6 +360,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             progress = false;
             for event in std::mem::take(&mut self.postponed) {
                 let Some(s) = event.corner_if_alive(self.mesh) else {
+                    self.tell(event.circuit, Fate::DroppedFromList);
                     continue;
                 };
                 match self.flip(s, event.signs) {
@@ -341,8 +371,12 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                         self.restore_non_crossing(&created);
                         progress = true;
                     }
-                    Err(Refused::OutsideRegion) => self.counts.discarded_outside += 1,
+                    Err(Refused::OutsideRegion) => {
+                        self.counts.discarded_outside += 1;
+                        self.tell(event.circuit, Fate::DroppedFromList);
+                    }
                     Err(Refused::Impossible) => self.postponed.push(event),
+                    Err(Refused::Endless) => {}
                 }
             }
         }
@@ -395,12 +429,14 @@ enum Refused {
     Impossible,
     /// It would remove a tetrahedron outside R.
     OutsideRegion,
+    /// There have been too many.
+    Endless,
 }
 
 impl Refused {
     fn fate(&self) -> Fate {
         match self {
-            Refused::Impossible => Fate::Impossible,
+            Refused::Impossible | Refused::Endless => Fate::Impossible,
             Refused::OutsideRegion => Fate::OutsideRegion,
         }
     }

@@ -55,7 +55,7 @@ impl<'a, P: PointStore> Motion<'a, P> {
     }
 
     /// A small number for each vertex that is asked for: 0, 1, 2, …
-    #[inline]
+    #[inline(always)]
     pub(super) fn number(&self, v: VertexId) -> usize {
         let known = self.numbers.borrow().table.get(v.index());
         if known > 0 {

@@ -17,29 +17,61 @@ pub enum FlipKind {
     FourFour,
 }
 
-/// A flip that is possible: the tetrahedra to remove, and the vertices of those that take their place.
+/// A flip that is possible: the tetrahedra to replace, and how.
 #[derive(Clone, Debug)]
-pub struct Flip {
+pub enum Flip {
+    /// vxyz and wxzy, and v, x, y, z, w: w takes the place of x, of y and of z.
+    TwoThree([TetId; 2], [VertexId; 5]),
+    /// vpqr, wprq and the third one around pq, and v, w, p, q, r.
+    ThreeTwo([TetId; 3], [VertexId; 5]),
+    /// vpqr, wprq, vqpu and wpqu around pq, and v, w, p, q, r, u; v, w, p, q are on one plane.
+    FourFour([TetId; 4], [VertexId; 6]),
+}
+
+impl Flip {
     /// Which kind.
-    pub kind: FlipKind,
+    pub fn kind(&self) -> FlipKind {
+        match self {
+            Flip::TwoThree(..) => FlipKind::TwoThree,
+            Flip::ThreeTwo(..) => FlipKind::ThreeTwo,
+            Flip::FourFour(..) => FlipKind::FourFour,
+        }
+    }
+
+    /// The tetrahedra to replace.
+    pub fn old(&self) -> &[TetId] {
+        match self {
+            Flip::TwoThree(old, _) => old,
+            Flip::ThreeTwo(old, _) => old,
+            Flip::FourFour(old, _) => old,
+        }
+    }
+
     /// The edge that is removed, in ascending order, and for a 4-4 flip the end of the new edge with the smaller id, as an
     /// edge with four tetrahedra can be flipped in two planes. `None` for 2-3 flips.
-    pub edge: Option<[VertexId; 3]>,
-    /// To be removed.
-    pub old: ArrayVec<TetId, 4>,
-    /// To be created, positively oriented.
-    pub new: ArrayVec<[VertexId; 4], 4>,
+    pub fn edge(&self) -> Option<[VertexId; 3]> {
+        match *self {
+            Flip::TwoThree(..) => None,
+            Flip::ThreeTwo(_, [_, _, p, q, _]) => Some([p.min(q), p.max(q), VertexId::INFINITE]),
+            Flip::FourFour(_, [v, w, p, q, _, _]) => Some([p.min(q), p.max(q), v.min(w)]),
+        }
+    }
+
+    /// Does it. Returns the new tetrahedra.
+    pub fn perform(&self, mesh: &mut TetMesh) -> ArrayVec<TetId, 4> {
+        let mut created = ArrayVec::new();
+        match *self {
+            Flip::TwoThree(old, vertices) => created.extend(mesh.two_to_three(old, vertices)),
+            Flip::ThreeTwo(old, vertices) => created.extend(mesh.three_to_two(old, vertices)),
+            Flip::FourFour(old, vertices) => created.extend(mesh.four_to_four(old, vertices)),
+        }
+        created
+    }
 }
 
-/// What 2-3 flip of the triangle xyz would create: vxyz with w in place of x, of y, of z.
+/// What a 2-3 flip of the triangle xyz would create: vxyz with w in place of x, of y, of z.
 fn around_new_edge([v, x, y, z, w]: [VertexId; 5]) -> [[VertexId; 4]; 3] {
     [[v, w, y, z], [v, x, w, z], [v, x, y, w]]
-}
-
-/// The signs of the circuit's coefficients c_x, c_y, c_z.
-#[inline]
-pub fn signs<P: PointStore>(points: &P, circuit: [VertexId; 5]) -> [Sign; 3] {
-    around_new_edge(circuit).map(|tet| -points.orient3d(tet))
 }
 
 /// The flip that removes the triangle xyz opposite corner `c`, between vxyz and wxzy, or `None` if there is none: the
@@ -60,53 +92,31 @@ pub fn flip_of_triangle<P: PointStore>(
     let v = mesh.vertex(c);
     let [x, y, z] = mesh.facet(c);
     let w = mesh.apex_across(c);
-    let around_new_edge = around_new_edge([v, x, y, z, w]);
-    let inside =
-        [0, 1, 2].map(|i| signs[i].map_or_else(|| points.orient3d(around_new_edge[i]), |s| -s));
-    let positive: ArrayVec<[VertexId; 4], 4> = (0..3)
-        .filter(|&i| inside[i].is_positive())
-        .map(|i| around_new_edge[i])
-        .collect();
-    let old = |tets: &[TetId]| tets.iter().copied().collect();
-    if positive.len() == 3 {
-        return Some(Flip {
-            kind: FlipKind::TwoThree,
-            edge: None,
-            old: old(&[t1, t2]),
-            new: positive,
-        });
-    }
-    if positive.len() != 2 {
+    let circuit = [v, x, y, z, w];
+    let sign = |i: usize| -points.orient3d(around_new_edge(circuit)[i]);
+    let signs = [0, 1, 2].map(|i| signs[i].unwrap_or_else(|| sign(i)));
+    let mut not_inside = (0..3).filter(|&i| !signs[i].is_negative());
+    let Some(i) = not_inside.next() else {
+        return Some(Flip::TwoThree([t1, t2], circuit));
+    };
+    if not_inside.next().is_some() {
         return None;
     }
     // The edge pq that is not passed inside, and the third vertex of the triangle.
-    let i = (0..3)
-        .find(|&i| !inside[i].is_positive())
-        .expect("two of three are positive");
     let r = [x, y, z][i];
     let [p, q] = [[y, z], [z, x], [x, y]][i];
     let (behind1, behind2) = (
         mesh.twin(mesh.corner_of(t1, r)),
         mesh.twin(mesh.corner_of(t2, r)),
     );
-    if inside[i] == Sign::Negative {
-        // vpqr, wpqr and the third tetrahedron vwpq.
-        return (behind1.tet() == behind2.tet()).then(|| Flip {
-            kind: FlipKind::ThreeTwo,
-            edge: Some([p.min(q), p.max(q), VertexId::INFINITE]),
-            old: old(&[t1, t2, behind1.tet()]),
-            new: positive,
-        });
-    }
-    // vpqr, wpqr, and on the other side of the plane of v, w, p, q: vpqu and wpqu.
-    let u = mesh.vertex(behind1);
     let (t3, t4) = (behind1.tet(), behind2.tet());
-    let four_around_edge = mesh.vertex(behind2) == u && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
-    (four_around_edge && !u.is_infinite()).then(|| Flip {
-        kind: FlipKind::FourFour,
-        edge: Some([p.min(q), p.max(q), v.min(w)]),
-        old: old(&[t1, t2, t3, t4]),
-        // vpqr is positive, so vqpu is; w takes the place of p, then of q.
-        new: ArrayVec::from([positive[0], positive[1], [v, q, w, u], [v, w, p, u]]),
-    })
+    if signs[i].is_positive() {
+        return (t3 == t4).then_some(Flip::ThreeTwo([t1, t2, t3], [v, w, p, q, r]));
+    }
+    // On the other side of the plane of v, w, p, q: vqpu and wpqu.
+    let u = mesh.vertex(behind1);
+    let four_around_edge =
+        mesh.vertex(behind2) == u && u != r && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
+    (four_around_edge && !u.is_infinite())
+        .then_some(Flip::FourFour([t1, t2, t3, t4], [v, w, p, q, r, u]))
 }

@@ -2,18 +2,20 @@
 
 use super::filter::{Filter, LiftedTet};
 use super::motion::{Motion, Rates};
-use super::time::{FlipTimes, Float, Timed, Timing, Undecided};
+use super::time::{FlipTimes, Timed, Timing, Undecided};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Sign};
+use crate::number::{Dyadic, Exact, Float, Number, Sign};
 use crate::predicate::PointStore;
 use std::cmp::Ordering;
 
-/// Times as rounded quotients, ties in order of arrival. The sign of D is exact, as in the paper, whose Orient4D is exact
-/// in every mode.
+/// Times as rounded quotients, ties in order of arrival.
 pub struct RoundedTimes<'a, P, N> {
     filter: Filter<'a, P>,
     exact: Rates<'a, P, Dyadic>,
     rates: Rates<'a, P, N>,
+    /// Whether the sign of D is that of the rounded D, right or wrong. Otherwise it is exact, as in the paper, whose
+    /// Orient4D is exact in every mode.
+    naive: bool,
     /// Times discarded because the quotient was not finite.
     overflows: u64,
 }
@@ -25,8 +27,35 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
             filter: Filter::new(motion),
             exact: Rates::new(motion),
             rates: Rates::new(motion),
+            naive: false,
             overflows: 0,
         }
+    }
+
+    /// The same with a rounded sign of D, which the paper does not go as far as.
+    pub fn naive(motion: &'a Motion<'a, P>) -> Self {
+        RoundedTimes {
+            naive: true,
+            ..RoundedTimes::new(motion)
+        }
+    }
+
+    /// N and D, if D > 0.
+    #[inline]
+    fn positive(&mut self, lift: &mut LiftedTet, circuit: [VertexId; 5]) -> Option<(N, N)> {
+        if self.naive {
+            let (n, d) = self.rates.evaluate(circuit);
+            return (d.sign() == Some(Sign::Positive)).then_some((n, d));
+        }
+        let evaluated = self.filter.evaluate_across(lift, circuit[4])?;
+        if evaluated.d.sign() != Some(Sign::Positive)
+            && !self.exact.evaluate(circuit).1.exact_sign().is_positive()
+        {
+            return None;
+        }
+        // The filter's values are what plain doubles give: the same operations in the same order, the origin apart.
+        let computed = N::computed(evaluated.n.value()).zip(N::computed(evaluated.d.value()));
+        Some(computed.unwrap_or_else(|| self.rates.evaluate(circuit)))
     }
 }
 
@@ -48,31 +77,26 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
         lift: &mut LiftedTet,
         circuit: [VertexId; 5],
     ) -> Option<Timing<f64, N>> {
-        let evaluated = self.filter.evaluate_across(lift, circuit[4])?;
-        if evaluated.d.sign_on_grid(0.0) != Some(Sign::Positive)
-            && !self.exact.evaluate(circuit).1.exact_sign().is_positive()
-        {
-            return None;
-        }
-        // The filter's values are what plain doubles give: the same operations in the same order, the origin apart.
-        let in_doubles = N::from_doubles(evaluated.n.value(), evaluated.d.value());
-        let (n, d) = in_doubles.unwrap_or_else(|| self.rates.evaluate(circuit));
-        let time = N::negated_quotient(&n, &d);
-        let key = time.to_f64();
-        if !key.is_finite() {
+        let (n, d) = self.positive(lift, circuit)?;
+        let Some(time) = N::negated_quotient(&n, &d) else {
             self.overflows += 1;
             return None;
-        }
-        Some(Timing { key, time })
+        };
+        Some(Timing {
+            key: time.to_f64(),
+            time,
+            // What is possible is asked when the time has come.
+            signs: [None; 3],
+        })
     }
 
     #[inline]
     fn compare_keys(a: f64, b: f64) -> Option<Ordering> {
-        Some(a.total_cmp(&b)).filter(|o| o.is_ne())
+        a.partial_cmp(&b).filter(|o| o.is_ne())
     }
 
     fn compare(&mut self, a: Timed<N>, b: Timed<N>) -> Ordering {
-        a.1.compare(b.1)
+        N::compare(a.1, b.1)
     }
 
     fn undecided(&self) -> Undecided {

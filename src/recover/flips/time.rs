@@ -24,7 +24,8 @@ use super::event::Event;
 use super::filter::{Filter, LiftedTet};
 use super::motion::{Motion, Rates};
 use crate::mesh::VertexId;
-use crate::number::{Exact, Number, Sign};
+pub use crate::number::Float;
+use crate::number::{Exact, Sign};
 use crate::predicate::PointStore;
 use std::cmp::Ordering;
 
@@ -77,6 +78,8 @@ pub struct Timing<K, T> {
     pub key: K,
     /// For the others.
     pub time: T,
+    /// The signs of the circuit's coefficients c_x, c_y, c_z, where they are known.
+    pub signs: [Option<Sign>; 3],
 }
 
 /// An event and its time, to be compared.
@@ -226,7 +229,12 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
     ) -> Option<Timing<(), Quotient<N>>> {
         self.filter.evaluate_across(lift, circuit[4])?;
         let time = self.exact_quotient(circuit)?;
-        Some(Timing { key: (), time })
+        let signs = self.filter.signs(lift, circuit);
+        Some(Timing {
+            key: (),
+            time,
+            signs,
+        })
     }
 
     fn compare_keys((): (), (): ()) -> Option<Ordering> {
@@ -247,38 +255,5 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
             big_quotients: self.big_quotients,
             ..Undecided::default()
         }
-    }
-}
-
-/// A float type in which the quotient is taken.
-pub trait Float: Number {
-    /// −n/d, rounded in this type.
-    fn negated_quotient(n: &Self, d: &Self) -> Self;
-
-    /// The order of two quotients.
-    fn compare(&self, other: &Self) -> Ordering {
-        self.to_f64().total_cmp(&other.to_f64())
-    }
-
-    /// From what was computed in doubles, if this type is just that.
-    fn from_doubles(n: f64, d: f64) -> Option<(Self, Self)> {
-        let _ = (n, d);
-        None
-    }
-}
-
-impl Float for f64 {
-    fn negated_quotient(n: &f64, d: &f64) -> f64 {
-        -n / d
-    }
-
-    fn from_doubles(n: f64, d: f64) -> Option<(f64, f64)> {
-        Some((n, d))
-    }
-}
-
-impl Float for f32 {
-    fn negated_quotient(n: &f32, d: &f32) -> f32 {
-        -n / d
     }
 }

@@ -18,6 +18,8 @@ pub enum Fate {
     OutsideRegion,
     /// Flipped from the list L (third patch).
     FlippedFromList(FlipKind),
+    /// Left the list L without a flip: its triangle is gone, or its flip would now remove a tetrahedron outside R.
+    DroppedFromList,
     /// A triangle between non-crossing tetrahedra that was not locally Delaunay (second patch); no event.
     FlippedNonCrossing(FlipKind),
 }

@@ -1,0 +1,265 @@
+//! Polygon insertion by retriangulating R as a whole: cavities or gift wrapping, and what comes after a refusal.
+//!
+//! Cavity retriangulation, where it is chosen, is tried first, and gift wrapping of the two original cavities where it is
+//! refused. Gift wrapping is refused only if f is not flat or the PLC not valid; then the caller flips.
+
+use super::cavity::{self, Face, Refused, Retriangulation};
+use super::gift_wrap::gift_wrap;
+use super::method::Insertion;
+use super::polygons::{PolygonInsertion, count_shims};
+use super::region::Region;
+use super::side::Sides;
+use crate::predicate::PointStore;
+
+impl<P: PointStore> PolygonInsertion<'_, P> {
+    /// Retriangulates one region as a whole, and returns the polygons that this displaced; `None` if it is refused.
+    pub(super) fn by_retriangulation(
+        &mut self,
+        f: usize,
+        sides: &Sides<P>,
+        region: &Region,
+        may_displace: bool,
+    ) -> Option<Vec<usize>> {
+        // Where f is not flat, the two orientations differ.
+        let reversed = (!sides.flat).then(|| sides.reversed());
+        let mut orientations = std::iter::once(sides).chain(&reversed);
+        if self.insertion == Insertion::Cavity {
+            let found = orientations
+                .clone()
+                .find_map(|sides| self.by_cavity(sides, region, may_displace));
+            if let Some(r) = found {
+                return Some(self.graft(f, sides, &r));
+            }
+            self.counts.cavity_fallbacks += 1;
+        }
+        let found = orientations.find_map(|sides| self.by_gift_wrapping(sides, region));
+        if found.is_none() {
+            self.counts.flip_fallbacks += 1;
+        } else if self.insertion == Insertion::Cavity {
+            self.counts.gift_wrap_fallbacks += 1;
+        }
+        found.map(|r| self.graft(f, sides, &r))
+    }
+
+    fn by_cavity(
+        &self,
+        sides: &Sides<P>,
+        region: &Region,
+        may_displace: bool,
+    ) -> Option<Retriangulation> {
+        let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
+        let result =
+            cavity::retriangulate(self.mesh, sides, region, &is_subpolygon).and_then(|r| {
+                if !may_displace && !r.displaced.is_empty() {
+                    Err(Refused::Displaces)
+                } else if self.mesh.can_replace(&r.old, &r.new) {
+                    Ok(r)
+                } else {
+                    Err(Refused::NotExposed)
+                }
+            });
+        result.ok()
+    }
+
+    fn by_gift_wrapping(&self, sides: &Sides<P>, region: &Region) -> Option<Retriangulation> {
+        let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
+        let wrapped = gift_wrap(self.mesh, sides, region, &is_subpolygon).ok()?;
+        self.mesh
+            .can_replace(&wrapped.old, &wrapped.new)
+            .then_some(wrapped)
+    }
+
+    /// Puts a retriangulation into the mesh.
+    fn graft(&mut self, f: usize, sides: &Sides<P>, r: &Retriangulation) -> Vec<usize> {
+        let created = self.mesh.replace(&r.old, &r.new);
+        self.incidence.update(self.mesh, &created);
+        self.counts.swallowed += r.swallowed as u64;
+        self.counts.displaced += r.displaced.len() as u64;
+        self.counts.shims += count_shims(self.mesh, sides, &created);
+        self.register(f, &r.faces);
+        let polygons = r
+            .displaced
+            .iter()
+            .filter_map(|t| self.subpolygons.remove(t));
+        polygons.map(|g| g as usize).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::gift_wrap;
+    use super::super::polygons::{PolygonCounts, Scratch, Subpolygons, Times};
+    use super::super::segments::{SegmentIndex, Subsegments, recover_segments};
+    use super::*;
+    use crate::delaunay::delaunay;
+    use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
+    use crate::plc::{Complex, Facet, Plc};
+    use crate::predicate::DoublePoints;
+
+    /// A mesh with all segments of a PLC.
+    struct Scene {
+        points: DoublePoints,
+        mesh: TetMesh,
+        incidence: Incidence,
+        complex: Complex,
+        subsegments: Subsegments,
+        index: SegmentIndex,
+        subpolygons: Subpolygons,
+        inserted: Vec<bool>,
+        scratch: Scratch,
+    }
+
+    impl Scene {
+        fn new(vertices: &[[f64; 3]], facets: &[[u32; 4]]) -> Scene {
+            let facet = |f: &[u32; 4]| Facet {
+                polygons: vec![f.map(VertexId).to_vec()],
+                ..Facet::default()
+            };
+            let plc = Plc {
+                vertices: vertices.to_vec(),
+                facets: facets.iter().map(facet).collect(),
+                ..Plc::default()
+            };
+            let complex = Complex::new(&plc, true).expect("a PLC");
+            let mut points = DoublePoints::new(plc.vertices);
+            let all: Vec<VertexId> = (0..points.len()).map(VertexId::new).collect();
+            let mut delaunay = delaunay(&points, &all).expect("not on one plane");
+            let (subsegments, incidence) = recover_segments(&complex, &mut points, &mut delaunay)
+                .expect("few and far between");
+            assert_eq!(points.len(), vertices.len(), "no Steiner point");
+            Scene {
+                points,
+                mesh: delaunay.mesh,
+                incidence,
+                subsegments,
+                index: SegmentIndex::new(&complex),
+                subpolygons: Subpolygons::default(),
+                inserted: vec![false; complex.polygons.len()],
+                scratch: Scratch::default(),
+                complex,
+            }
+        }
+
+        fn insertion<'a>(
+            &'a mut self,
+            complex: &'a Complex,
+            insertion: Insertion,
+        ) -> PolygonInsertion<'a, DoublePoints> {
+            PolygonInsertion {
+                points: &self.points,
+                mesh: &mut self.mesh,
+                incidence: &mut self.incidence,
+                complex,
+                subsegments: &self.subsegments,
+                index: &self.index,
+                subpolygons: &mut self.subpolygons,
+                inserted: &mut self.inserted,
+                insertion,
+                counts: PolygonCounts::default(),
+                candidates: Vec::new(),
+                scratch: &mut self.scratch,
+                watch: None,
+            }
+        }
+    }
+
+    /// A square that cuts the convex hull in two, and five upright rectangles that float above and below it. Their
+    /// triangles in the cavities of the square are not all Delaunay for the cavities' vertices.
+    fn fins() -> Scene {
+        let square = [[-7, -7, 0], [7, -7, 0], [7, 7, 0], [-7, 7, 0]];
+        let loose = [
+            [-5, -2, 2],
+            [-5, 5, -1],
+            [-1, -2, -4],
+            [3, -2, 4],
+            [3, 0, -2],
+            [5, -4, 1],
+        ];
+        let fin = |[x, y, z, far]: [i32; 4]| [[x, -y, z], [x, y, z], [x, y, far], [x, -y, far]];
+        let fins = [
+            [-4, 3, 1, 4],
+            [-2, 3, -1, -2],
+            [0, 2, -1, -3],
+            [2, 3, 1, 2],
+            [4, 1, -1, -3],
+        ];
+        let all = square
+            .into_iter()
+            .chain(fins.into_iter().flat_map(fin))
+            .chain(loose);
+        let vertices: Vec<[f64; 3]> = all.map(|p| p.map(f64::from)).collect();
+        let facet = |i: u32| [4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3];
+        Scene::new(&vertices, &[1, 2, 3, 4, 5, 0].map(facet))
+    }
+
+    fn crossing(mesh: &TetMesh, sides: &Sides<DoublePoints>) -> TetId {
+        let mut tets = mesh.finite();
+        tets.find(|&t| sides.crosses_tet(mesh, t))
+            .expect("the polygon is missing")
+    }
+
+    fn sorted_tets(mesh: &TetMesh) -> Vec<[VertexId; 4]> {
+        let mut tets: Vec<[VertexId; 4]> = mesh
+            .finite()
+            .map(|t| {
+                let mut v = mesh.vertices(t);
+                v.sort_unstable();
+                v
+            })
+            .collect();
+        tets.sort_unstable();
+        tets
+    }
+
+    /// Inserts the square last, as a polygon that may not displace others, and returns the mesh.
+    fn square_without_displacing(insertion: Insertion) -> (Vec<[VertexId; 4]>, PolygonCounts) {
+        let mut scene = fins();
+        let complex = scene.complex.clone();
+        let mut others = complex.clone();
+        let square = others.polygons.pop().expect("six polygons");
+        let mut first = scene.insertion(&others, insertion);
+        first.insert_all(&mut |_| {}).expect("a valid PLC");
+        let points = scene.points.clone();
+        let sides = Sides::new(&points, &square, square.vertices.iter().copied());
+        let seed = crossing(&scene.mesh, &sides);
+        let region = Region::grow(&scene.mesh, &sides, seed);
+        let mut last = scene.insertion(&complex, insertion);
+        let displaced = last.by_retriangulation(5, &sides, &region, false);
+        assert_eq!(displaced, Some(Vec::new()));
+        let counts = last.counts;
+        assert!(scene.mesh.check().is_ok());
+        (sorted_tets(&scene.mesh), counts)
+    }
+
+    #[test]
+    fn a_refused_cavity_is_gift_wrapped() {
+        let (cavity, counts) = square_without_displacing(Insertion::Cavity);
+        assert_eq!(counts.cavity_fallbacks, 1);
+        assert_eq!((counts.gift_wrap_fallbacks, counts.flip_fallbacks), (1, 0));
+        let (wrapped, counts) = square_without_displacing(Insertion::GiftWrap);
+        assert_eq!(counts, PolygonCounts::default());
+        assert_eq!(cavity, wrapped);
+        let mut scene = fins();
+        let complex = scene.complex.clone();
+        let mut all = scene.insertion(&complex, Insertion::Flip(Times::Exact));
+        all.insert_all(&mut |_| {}).expect("a valid PLC");
+        assert_eq!(wrapped, sorted_tets(&scene.mesh));
+    }
+
+    /// Paper, Fig. 4: a polygon that is not flat, and whose sides want different diagonals of it.
+    #[test]
+    fn incompatible_sides_are_refused() {
+        let e = 2f64.powi(-48);
+        let polygon = [[-1., 0., e], [0., -1., -e], [1., 0., e], [0., 1., -e]];
+        let apexes = [[0., 0., 0.25], [0., 0., -0.25]];
+        let scene = Scene::new(&[&polygon[..], &apexes].concat(), &[[0, 1, 2, 3]]);
+        let f = &scene.complex.polygons[0];
+        let sides = Sides::new(&scene.points, f, f.vertices.iter().copied());
+        assert!(!sides.flat);
+        let seed = crossing(&scene.mesh, &sides);
+        let region = Region::grow(&scene.mesh, &sides, seed);
+        assert_eq!(region.tets.len(), 4);
+        let result = gift_wrap::gift_wrap(&scene.mesh, &sides, &region, &|_| false);
+        assert_eq!(result.map(|r| r.new), Err(gift_wrap::Refused::Incompatible));
+    }
+}
