@@ -5,17 +5,18 @@
 //! ```
 
 use crate::delaunay::delaunay;
-use crate::error::{Failure, GaveUp};
+use crate::error::{DeletionRefused, Failure, GaveUp};
 use crate::mesh::{ExportedEdge, ExportedFace, ExportedMesh, Incidence, TetId, TetMesh, VertexId};
 use crate::plc::{Complex, Plc};
 use crate::predicate::{DoublePoints, PointStore};
 use crate::recover::cavity::face;
+use crate::recover::deletion::{DeletionCounts, PolygonDeletion};
 use crate::recover::domain::{DomainMarks, keeps_edge, mark_domain};
 use crate::recover::flips::Watch;
 use crate::recover::polygons::{
     Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons, Times,
 };
-use crate::recover::segments::{Subsegments, recover_segments};
+use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 use crate::report::{Phase, Report};
 
 /// What the user chooses.
@@ -40,8 +41,11 @@ impl Default for Options {
     }
 }
 
-/// A tetrahedralization of the convex hull of a PLC's vertices in which all segments, and after
-/// [`Cdt::insert_polygons`] all polygons, are unions of edges and triangles.
+/// A tetrahedralization of the convex hull of a PLC's vertices in which all segments, and those polygons that have been
+/// inserted, are unions of edges and triangles, and everything else is Delaunay as far as they allow.
+///
+/// Polygons are inserted all at once ([`Cdt::insert_polygons`]) or one by one ([`Cdt::insert_polygon`]), and deleted
+/// ([`Cdt::delete_polygon`]), in any order: which are there alone determines the tetrahedra, if they are exactly flat.
 #[derive(Clone, Debug)]
 pub struct Cdt<P = DoublePoints> {
     /// The vertices: those of the input, then Steiner points.
@@ -51,7 +55,11 @@ pub struct Cdt<P = DoublePoints> {
     complex: Complex,
     incidence: Incidence,
     subsegments: Subsegments,
+    index: SegmentIndex,
     subpolygons: Subpolygons,
+    /// Which polygons of the complex are in the mesh.
+    inserted: Vec<bool>,
+    scratch: Scratch,
 }
 
 impl Cdt<DoublePoints> {
@@ -86,16 +94,19 @@ impl Cdt<DoublePoints> {
         Ok(Cdt {
             points,
             mesh: delaunay.mesh,
-            complex,
             incidence,
             subsegments,
+            index: SegmentIndex::new(&complex),
             subpolygons: Subpolygons::default(),
+            inserted: vec![false; complex.polygons.len()],
+            scratch: Scratch::default(),
+            complex,
         })
     }
 }
 
 impl<P: PointStore> Cdt<P> {
-    /// Inserts all polygons of the complex (paper §3). `progress` is told how many of them are done.
+    /// Inserts all polygons of the complex (paper §3) that are not in the mesh. `progress` is told how many are done.
     ///
     /// # Errors
     /// The first polygon that cannot be inserted, and why.
@@ -119,6 +130,35 @@ impl<P: PointStore> Cdt<P> {
         progress: &mut dyn FnMut(usize),
         watch: Option<&'a mut dyn Watch>,
     ) -> Result<PolygonCounts, Failure> {
+        self.insert(insertion, report, watch, |polygons| {
+            polygons.insert_all(progress)
+        })
+    }
+
+    /// Inserts polygon `f`, an index in [`Complex::polygons`]; nothing happens if it is in the mesh. The counts, also
+    /// those in the report, are of this polygon.
+    ///
+    /// # Errors
+    /// Why it cannot be inserted. Some of its missing regions may have been; what they consist of now stays.
+    pub fn insert_polygon(
+        &mut self,
+        f: usize,
+        insertion: Insertion,
+        report: &mut Report,
+    ) -> Result<PolygonCounts, Failure> {
+        if f >= self.complex.polygons.len() {
+            return Err(Failure::NoSuchPolygon(f));
+        }
+        self.insert(insertion, report, None, |polygons| polygons.insert(f))
+    }
+
+    fn insert<'a>(
+        &'a mut self,
+        insertion: Insertion,
+        report: &mut Report,
+        watch: Option<&'a mut dyn Watch>,
+        run: impl FnOnce(&mut PolygonInsertion<P>) -> Result<(), Failure>,
+    ) -> Result<PolygonCounts, Failure> {
         report.insertion = Some(insertion);
         report.time(Phase::Polygons, move |report| {
             let mut polygons = PolygonInsertion {
@@ -127,17 +167,103 @@ impl<P: PointStore> Cdt<P> {
                 incidence: &mut self.incidence,
                 complex: &self.complex,
                 subsegments: &self.subsegments,
+                index: &self.index,
                 subpolygons: &mut self.subpolygons,
+                inserted: &mut self.inserted,
                 insertion,
                 counts: PolygonCounts::default(),
                 candidates: Vec::new(),
-                scratch: Scratch::default(),
+                scratch: &mut self.scratch,
                 watch,
             };
-            let result = polygons.insert_all(progress);
+            let result = run(&mut polygons);
             report.insertion_counts = polygons.counts;
             result.map(|()| polygons.counts)
         })
+    }
+
+    /// Deletes polygon `f`, an index in [`Complex::polygons`], from the mesh, which becomes what it would be if `f` had
+    /// never been inserted. Its segments stay. [`Cdt::export`] then does not know the polygon: its triangles are no faces
+    /// of the mesh, and it bounds nothing.
+    ///
+    /// Bistellar flips in exact order, those of the insertion backwards (Shewchuk 2003): the time depends on the part of
+    /// the mesh that changes, not on its size. A polygon that is exactly flat, with the Steiner points on its boundary,
+    /// can always be deleted.
+    ///
+    /// ```
+    /// # use tetflip::{cdt::Cdt, error::DeletionRefused, mesh::VertexId, plc::{Facet, Plc}};
+    /// # use tetflip::{recover::polygons::{Insertion, Times}, report::Report};
+    /// // A triangle, and a pair of vertices whose common edge passes through it.
+    /// let vertices = vec![[0., 0., 0.], [9., 0., 0.], [0., 9., 0.], [2., 2., 1.], [2., 2., -1.]];
+    /// let triangle = [0, 1, 2].map(VertexId).to_vec();
+    /// let facets = vec![Facet { polygons: vec![triangle], ..Facet::default() }];
+    /// let plc = Plc { vertices, facets, ..Plc::default() };
+    ///
+    /// let mut report = Report::default();
+    /// let mut cdt = Cdt::with_segments(&plc, true, &mut report)?;
+    /// assert_eq!(cdt.mesh.finite().count(), 3);
+    /// let f = cdt.polygon_of_facet(0).expect("facet 0 has an area");
+    ///
+    /// cdt.insert_polygon(f, Insertion::Flip(Times::Filtered), &mut report)?;
+    /// assert_eq!(cdt.mesh.finite().count(), 2);
+    ///
+    /// let counts = cdt.delete_polygon(f)?;
+    /// assert_eq!(counts.flips.two_three, 1);
+    /// assert_eq!(cdt.mesh.finite().count(), 3);
+    ///
+    /// let again = cdt.delete_polygon(f);
+    /// assert_eq!(again, Err(DeletionRefused::NotInserted { facets: vec![0] }));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Why it cannot be deleted. The mesh then has the tetrahedra that it had.
+    pub fn delete_polygon(&mut self, f: usize) -> Result<DeletionCounts, DeletionRefused> {
+        self.delete_polygon_by(f, Times::Filtered)
+    }
+
+    /// [`Cdt::delete_polygon`] with a choice of how flip times are represented. With exact ones the result is the same;
+    /// rounded ones may be refused where exact ones are not, but
+    /// do not end in a wrong mesh either: all other predicates are exact here, whatever `times` says.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn delete_polygon_by(
+        &mut self,
+        f: usize,
+        times: Times,
+    ) -> Result<DeletionCounts, DeletionRefused> {
+        let polygon = self.complex.polygons.get(f);
+        let polygon = polygon.ok_or(DeletionRefused::NoSuchPolygon(f))?;
+        if !self.inserted[f] {
+            let facets = polygon.facets.clone();
+            return Err(DeletionRefused::NotInserted { facets });
+        }
+        let mut deletion = PolygonDeletion {
+            points: &self.points,
+            mesh: &mut self.mesh,
+            incidence: &mut self.incidence,
+            complex: &self.complex,
+            index: &self.index,
+            subsegments: &self.subsegments,
+            subpolygons: &mut self.subpolygons,
+            scratch: &mut self.scratch,
+        };
+        let counts = deletion.delete(f, times)?;
+        self.inserted[f] = false;
+        Ok(counts)
+    }
+
+    /// Whether polygon `f` is in the mesh.
+    pub fn is_inserted(&self, f: usize) -> bool {
+        self.inserted.get(f).is_some_and(|&inserted| inserted)
+    }
+
+    /// The polygon that a facet of the input belongs to, possibly with others that are coplanar; `None` if the facet is
+    /// made of segments and vertices only. Linear time.
+    pub fn polygon_of_facet(&self, facet: usize) -> Option<usize> {
+        let mut polygons = self.complex.polygons.iter();
+        polygons.position(|polygon| polygon.facets.contains(&facet))
     }
 
     /// The checked PLC.

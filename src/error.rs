@@ -20,6 +20,9 @@ pub enum Failure {
     /// The algorithm gave up on what may be a valid PLC.
     #[error("gave up: {0}")]
     GaveUp(#[from] GaveUp),
+    /// The complex has no polygon of this index.
+    #[error("there is no polygon {0}")]
+    NoSuchPolygon(usize),
 }
 
 impl Failure {
@@ -163,7 +166,7 @@ impl Failure {
                 }
                 GaveUp::NothingInside => self.to_string(),
             },
-            Failure::Delaunay(_) | Failure::Plc(_) => self.to_string(),
+            Failure::Delaunay(_) | Failure::Plc(_) | Failure::NoSuchPolygon(_) => self.to_string(),
         }
     }
 }
@@ -345,4 +348,53 @@ pub enum NotFlatReason {
     /// Something crosses it that crosses only because of rounding.
     #[error("a constraint crosses it after rounding")]
     Crossed,
+}
+
+/// Why a polygon was not deleted. The mesh has the tetrahedra that it had.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum DeletionRefused {
+    /// The complex has no polygon of this index.
+    #[error("there is no polygon {0}")]
+    NoSuchPolygon(usize),
+    /// The polygon is not in the mesh: it has not been inserted, or has been deleted already.
+    #[error("the polygon made of facets {facets:?} is not in the mesh")]
+    NotInserted {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+    },
+    /// There is no CDT of these vertices without the polygon, but with the other constraints.
+    #[error("without the polygon made of facets {facets:?} there is no CDT: {obstacle}")]
+    NoCdt {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// What shows it.
+        obstacle: Obstacle,
+    },
+    /// The polygon is flat only to rounding, and flips do not lead to a CDT without it. There may be one.
+    #[error(
+        "the polygon made of facets {facets:?} is not exactly flat, and flips cannot delete it: {obstacle}"
+    )]
+    NotFlat {
+        /// The facets of the polygon.
+        facets: Vec<usize>,
+        /// Where they failed.
+        obstacle: Obstacle,
+    },
+}
+
+/// What is in the way of a deletion.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Obstacle {
+    /// This segment, given by its ends, or a part of it would have to vanish.
+    #[error("it holds the segment {}–{} in place", .0[0], .0[1])]
+    Segment([VertexId; 2]),
+    /// A triangle of the polygon made of these facets would have to vanish.
+    #[error("it holds the polygon made of facets {0:?} in place")]
+    Polygon(Vec<usize>),
+    /// The tetrahedra around this triangle, which is not locally Delaunay, cannot be flipped.
+    #[error("the triangle {}–{}–{} cannot be flipped", .0[0], .0[1], .0[2])]
+    NoFlip([VertexId; 3]),
+    /// This triangle would not be locally Delaunay, and it is not its turn to be flipped.
+    #[error("the triangle {}–{}–{} would not be locally Delaunay", .0[0], .0[1], .0[2])]
+    TooLate([VertexId; 3]),
 }

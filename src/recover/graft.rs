@@ -88,8 +88,8 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
 #[cfg(test)]
 mod tests {
     use super::super::gift_wrap;
-    use super::super::polygons::{PolygonCounts, Subpolygons, Times};
-    use super::super::segments::{Subsegments, recover_segments};
+    use super::super::polygons::{PolygonCounts, Scratch, Subpolygons, Times};
+    use super::super::segments::{SegmentIndex, Subsegments, recover_segments};
     use super::*;
     use crate::delaunay::delaunay;
     use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
@@ -103,7 +103,10 @@ mod tests {
         incidence: Incidence,
         complex: Complex,
         subsegments: Subsegments,
+        index: SegmentIndex,
         subpolygons: Subpolygons,
+        inserted: Vec<bool>,
+        scratch: Scratch,
     }
 
     impl Scene {
@@ -128,9 +131,12 @@ mod tests {
                 points,
                 mesh: delaunay.mesh,
                 incidence,
-                complex,
                 subsegments,
+                index: SegmentIndex::new(&complex),
                 subpolygons: Subpolygons::default(),
+                inserted: vec![false; complex.polygons.len()],
+                scratch: Scratch::default(),
+                complex,
             }
         }
 
@@ -145,11 +151,13 @@ mod tests {
                 incidence: &mut self.incidence,
                 complex,
                 subsegments: &self.subsegments,
+                index: &self.index,
                 subpolygons: &mut self.subpolygons,
+                inserted: &mut self.inserted,
                 insertion,
                 counts: PolygonCounts::default(),
                 candidates: Vec::new(),
-                scratch: crate::recover::polygons::Scratch::default(),
+                scratch: &mut self.scratch,
                 watch: None,
             }
         }

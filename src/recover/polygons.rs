@@ -31,8 +31,12 @@ pub struct PolygonInsertion<'a, P> {
     pub complex: &'a Complex,
     /// Its segments as they are in the mesh.
     pub subsegments: &'a Subsegments,
+    /// Finds the segments of the input.
+    pub index: &'a SegmentIndex,
     /// The triangles inserted so far.
     pub subpolygons: &'a mut Subpolygons,
+    /// Which polygons are in the mesh.
+    pub inserted: &'a mut [bool],
     /// Which algorithm.
     pub insertion: Insertion,
     /// What has been done.
@@ -40,7 +44,7 @@ pub struct PolygonInsertion<'a, P> {
     /// The triangles noted for the polygon that is being inserted.
     pub candidates: Vec<Face>,
     /// Memory used again for every polygon.
-    pub scratch: Scratch,
+    pub scratch: &'a mut Scratch,
     /// Who watches the flips.
     pub watch: Option<&'a mut dyn Watch>,
 }
@@ -48,8 +52,8 @@ pub struct PolygonInsertion<'a, P> {
 /// Tables that are kept from polygon to polygon.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    flips: FlipScratch,
-    sides: SideTable,
+    pub(super) flips: FlipScratch,
+    pub(super) sides: SideTable,
 }
 
 /// How often a polygon that is flat only to rounding is searched for missing regions.
@@ -59,35 +63,45 @@ const ROUNDS_IF_NOT_FLAT: usize = 8;
 type Faces = Vec<[VertexId; 3]>;
 
 impl<P: PointStore> PolygonInsertion<'_, P> {
-    /// Inserts all polygons of the complex. `progress` is told how many are done.
+    /// Inserts all polygons of the complex that are not in the mesh. `progress` is told how many are done.
     ///
     /// # Errors
     /// The first polygon that cannot be inserted, by name.
     pub fn insert_all(&mut self, progress: &mut dyn FnMut(usize)) -> Result<(), Failure> {
-        let index = SegmentIndex::new(self.complex);
         for f in 0..self.complex.polygons.len() {
-            // Displaced polygons are reinserted at once, and may not displace others, so that this ends.
-            let mut queue = VecDeque::from([(f, true)]);
-            while let Some((f, first_time)) = queue.pop_front() {
-                let displaced = self.insert_polygon(&index, f, first_time)?;
-                self.counts.reinserted += displaced.len() as u64;
-                queue.extend(displaced.into_iter().map(|g| (g, false)));
-            }
-            self.counts.polygons += 1;
+            self.insert(f)?;
             progress(f + 1);
         }
         Ok(())
     }
 
+    /// Inserts polygon `f`, unless it is in the mesh, and again those that it displaces.
+    ///
+    /// # Errors
+    /// The first polygon that cannot be inserted, by name.
+    pub fn insert(&mut self, f: usize) -> Result<(), Failure> {
+        if self.inserted[f] {
+            return Ok(());
+        }
+        // Displaced polygons are reinserted at once, and may not displace others, so that this ends.
+        let mut queue = VecDeque::from([(f, true)]);
+        while let Some((f, first_time)) = queue.pop_front() {
+            let displaced = self.insert_polygon(f, first_time)?;
+            self.inserted[f] = true;
+            self.counts.reinserted += displaced.len() as u64;
+            for g in displaced {
+                self.inserted[g] = false;
+                queue.push_back((g, false));
+            }
+        }
+        self.counts.polygons += 1;
+        Ok(())
+    }
+
     /// Inserts polygon `f`, and returns the polygons that it displaced.
-    fn insert_polygon(
-        &mut self,
-        index: &SegmentIndex,
-        f: usize,
-        may_displace: bool,
-    ) -> Result<Vec<usize>, Failure> {
+    fn insert_polygon(&mut self, f: usize, may_displace: bool) -> Result<Vec<usize>, Failure> {
         let polygon = &self.complex.polygons[f];
-        let boundary = boundary_subsegments(self.subsegments, index, polygon);
+        let boundary = boundary_subsegments(self.subsegments, self.index, polygon);
         let on_boundary = boundary.iter().flatten().copied();
         let sides = Sides::with_table(
             self.points,
@@ -438,7 +452,7 @@ fn covers_simply(faces: &[[VertexId; 3]], boundary: &[[VertexId; 2]]) -> bool {
 }
 
 /// The directed subsegments that bound f.
-fn boundary_subsegments(
+pub(super) fn boundary_subsegments(
     subsegments: &Subsegments,
     index: &SegmentIndex,
     f: &Polygon,

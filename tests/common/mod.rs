@@ -1,6 +1,8 @@
 //! What several test files share.
 #![allow(dead_code)]
 
+pub mod families;
+
 use tetflip::delaunay::{Delaunay, delaunay};
 use tetflip::mesh::{TetMesh, VertexId};
 use tetflip::plc::{Facet, Plc};

@@ -4,6 +4,7 @@
 //! the queue is that of a [`FlipTimes`]: rounded quotients as in the paper, with the paper's three patches (§3.3), each
 //! counted; or exact quotients with the perturbation of the weights, which need no patch.
 
+mod deletion;
 mod event;
 mod filter;
 mod filtered;
@@ -16,13 +17,14 @@ mod time;
 mod watch;
 mod wide;
 
+pub use deletion::{Blocked, Deleted, FlipDeletion, Kept};
 pub use event::Event;
 pub use filtered::{Enclosure, FilteredTime, FilteredTimes};
 pub use motion::{LeftVertices, Motion, VertexNumbers};
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
 pub use rounded::RoundedTimes;
-pub use run::{FlipScratch, Flipped, flip_insert};
+pub use run::{FlipScratch, Flipped, flip_delete, flip_insert};
 pub use time::{ExactTimes, FlipTimes, Float, Quotient, Timed, Timing, Undecided};
 pub use watch::{Fate, Watch};
 pub use wide::WideTimes;
@@ -74,6 +76,25 @@ impl FlipCounts {
     /// All flips.
     pub fn flips(&self) -> u64 {
         self.two_three + self.three_two + self.four_four
+    }
+
+    fn count(&mut self, kind: FlipKind) {
+        match kind {
+            FlipKind::TwoThree => self.two_three += 1,
+            FlipKind::ThreeTwo => self.three_two += 1,
+            FlipKind::FourFour => self.four_four += 1,
+        }
+    }
+
+    /// Notes what the queue and its order have counted.
+    fn record<C: FlipTimes>(&mut self, queue: &FlipQueue<C>, times: &C) {
+        let undecided = times.undecided();
+        self.queued = queue.arrived();
+        self.comparisons = queue.comparisons();
+        self.compared_exactly = undecided.compared_exactly;
+        self.ties = undecided.ties;
+        self.big_quotients = undecided.big_quotients;
+        self.overflows = undecided.overflows;
     }
 
     /// Adds the counts of another insertion.
@@ -240,13 +261,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         if self.counts.flips() >= self.most_flips {
             outcome = FlipOutcome::Endless;
         }
-        let undecided = self.times.undecided();
-        self.counts.queued = self.queue.arrived();
-        self.counts.comparisons = self.queue.comparisons();
-        self.counts.compared_exactly = undecided.compared_exactly;
-        self.counts.ties = undecided.ties;
-        self.counts.big_quotients = undecided.big_quotients;
-        self.counts.overflows = undecided.overflows;
+        self.counts.record(&self.queue, &self.times);
         if let Some(watch) = self.watch {
             let vertices: Vec<_> = tets.iter().map(|&t| self.mesh.vertices(t)).collect();
             watch.end(outcome, &vertices);

@@ -1,10 +1,10 @@
 //! From the name of a number type to the flips in that type.
 
 use super::{
-    ExactTimes, FilteredTimes, FlipCounts, FlipInsertion, FlipOutcome, FlipTimes, Motion,
-    RoundedTimes, VertexNumbers, Watch, WideTimes,
+    Deleted, ExactTimes, FilteredTimes, FlipCounts, FlipDeletion, FlipInsertion, FlipOutcome,
+    FlipTimes, Kept, Motion, RoundedTimes, VertexNumbers, Watch, WideTimes,
 };
-use crate::mesh::{TetId, TetMesh, VertexId};
+use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::number::{Dyadic, Wide, WidthTask};
 use crate::predicate::{NaivePoints, PointStore};
 use crate::recover::method::Times;
@@ -92,6 +92,50 @@ fn naive_insert<P: PointStore>(
         None => job.run(RoundedTimes::<_, f64>::naive(motion)),
         Some(bits) => job.run(WideTimes::naive(bits, motion)),
     })
+}
+
+/// Deletes the polygon that consists of `faces`, the triangles opposite these corners, by flips backwards, ordered by
+/// times in the number type `times`. Only times are rounded, even if the number type is a naive one.
+pub fn flip_delete<P: PointStore>(
+    mesh: &mut TetMesh,
+    sides: &Sides<P>,
+    faces: &[Corner],
+    kept: Kept,
+    times: Times,
+    scratch: &mut FlipScratch,
+) -> Deleted {
+    let is_left = |v: VertexId| sides.of(v) == Side::Left;
+    let numbers = std::mem::take(&mut scratch.numbers);
+    let motion = Motion::with_numbers(sides.points(), sides.frame, &is_left, numbers);
+    let (p, m, marks) = (sides.points(), &motion, &mut scratch.marks);
+    let deleted = match times {
+        Times::F32 => {
+            FlipDeletion::new(mesh, p, kept, RoundedTimes::<P, f32>::new(m), marks).delete(faces)
+        }
+        Times::F64 | Times::Naive => {
+            FlipDeletion::new(mesh, p, kept, RoundedTimes::<P, f64>::new(m), marks).delete(faces)
+        }
+        Times::Wide(bits) | Times::NaiveWide(bits) => {
+            FlipDeletion::new(mesh, p, kept, WideTimes::new(bits, m), marks).delete(faces)
+        }
+        Times::Filtered => {
+            FlipDeletion::new(mesh, p, kept, FilteredTimes::new(m), marks).delete(faces)
+        }
+        Times::Exact => {
+            FlipDeletion::new(mesh, p, kept, ExactTimes::<P, Dyadic>::new(m), marks).delete(faces)
+        }
+        Times::Rational => {
+            FlipDeletion::new(mesh, p, kept, ExactTimes::<P, BigRational>::new(m), marks)
+                .delete(faces)
+        }
+        #[cfg(feature = "rug")]
+        Times::Rug => {
+            FlipDeletion::new(mesh, p, kept, ExactTimes::<P, rug::Rational>::new(m), marks)
+                .delete(faces)
+        }
+    };
+    scratch.numbers = motion.into_numbers();
+    deleted
 }
 
 /// One insertion whose number type is yet to be chosen.

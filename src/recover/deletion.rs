@@ -1,0 +1,159 @@
+//! Deleting an inserted polygon: which triangles are its, which constraints stay, and what to call what is in the way.
+//! The flips are in [`flips`](super::flips).
+//!
+//! The segments of the polygon stay, with their Steiner points. Everything takes time in proportion to the polygon and to
+//! the region that is flipped, not to the mesh.
+
+use super::cavity::{Face, face};
+use super::flips::{Blocked, FlipCounts, Kept, flip_delete};
+use super::method::Times;
+use super::polygons::{Scratch, Subpolygons, boundary_subsegments};
+use super::segments::{SegmentIndex, Subsegments};
+use super::side::Sides;
+use crate::error::{DeletionRefused, Obstacle};
+use crate::mesh::{Corner, Incidence, TetId, TetMesh, VertexId};
+use crate::plc::Complex;
+use crate::predicate::PointStore;
+use rustc_hash::FxHashSet;
+use serde::Serialize;
+
+/// What a deletion did.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Debug, Serialize)]
+pub struct DeletionCounts {
+    /// Triangles that the polygon consisted of.
+    pub subpolygons: u64,
+    /// Tetrahedra removed.
+    pub removed: u64,
+    /// Tetrahedra that took their place.
+    pub created: u64,
+    /// The flips.
+    pub flips: FlipCounts,
+}
+
+/// Deletes polygons from a CDT.
+pub struct PolygonDeletion<'a, P> {
+    /// The vertices.
+    pub points: &'a P,
+    /// The mesh.
+    pub mesh: &'a mut TetMesh,
+    /// Its vertex stars.
+    pub incidence: &'a mut Incidence,
+    /// The PLC.
+    pub complex: &'a Complex,
+    /// Finds its segments.
+    pub index: &'a SegmentIndex,
+    /// Its segments as they are in the mesh.
+    pub subsegments: &'a Subsegments,
+    /// The triangles on polygons.
+    pub subpolygons: &'a mut Subpolygons,
+    /// Memory used again for every polygon.
+    pub scratch: &'a mut Scratch,
+}
+
+impl<P: PointStore> PolygonDeletion<'_, P> {
+    /// Deletes polygon `f`, which is in the mesh. If it is refused the mesh has the same tetrahedra as before.
+    ///
+    /// # Errors
+    /// What is in the way.
+    pub fn delete(&mut self, f: usize, times: Times) -> Result<DeletionCounts, DeletionRefused> {
+        let polygon = &self.complex.polygons[f];
+        let boundary = boundary_subsegments(self.subsegments, self.index, polygon);
+        let on_boundary = boundary.iter().flatten().copied();
+        let sides = Sides::with_table(
+            self.points,
+            polygon,
+            polygon.vertices.iter().copied().chain(on_boundary),
+            std::mem::take(&mut self.scratch.sides),
+        );
+        let mut result = self.by_flips(f, &sides, &boundary, times);
+        if !sides.flat && result.is_err() {
+            // It may have been inserted from behind.
+            result = self.by_flips(f, &sides.reversed(), &boundary, times);
+        }
+        let flat = sides.flat;
+        self.scratch.sides = sides.into_table();
+        result.map_err(|blocked| {
+            let (facets, obstacle) = (polygon.facets.clone(), self.obstacle(blocked));
+            if flat {
+                DeletionRefused::NoCdt { facets, obstacle }
+            } else {
+                DeletionRefused::NotFlat { facets, obstacle }
+            }
+        })
+    }
+
+    fn by_flips(
+        &mut self,
+        f: usize,
+        sides: &Sides<P>,
+        boundary: &[[VertexId; 2]],
+        times: Times,
+    ) -> Result<DeletionCounts, Blocked> {
+        let corners = self.faces(f, boundary);
+        let faces: Vec<Face> = corners.iter().map(|&c| face(self.mesh.facet(c))).collect();
+        let (subsegments, subpolygons) = (self.subsegments, &*self.subpolygons);
+        let kept = Kept {
+            edge: &|[a, b]| subsegments.segment_of(a, b).is_some(),
+            triangle: &|t| subpolygons.get(&t).is_some_and(|&g| g as usize != f),
+        };
+        let scratch = &mut self.scratch.flips;
+        let deleted = flip_delete(self.mesh, sides, &corners, kept, times, scratch);
+        self.incidence.update(self.mesh, &deleted.tets);
+        if let Some(blocked) = deleted.blocked {
+            return Err(blocked);
+        }
+        for t in &faces {
+            self.subpolygons.remove(t);
+        }
+        Ok(DeletionCounts {
+            subpolygons: faces.len() as u64,
+            removed: deleted.before.len() as u64,
+            created: deleted.tets.len() as u64,
+            flips: deleted.counts,
+        })
+    }
+
+    /// The triangles of f, found from its boundary inwards.
+    fn faces(&self, f: usize, boundary: &[[VertexId; 2]]) -> Vec<Corner> {
+        let mut faces = Vec::new();
+        let mut found: FxHashSet<Face> = FxHashSet::default();
+        let mut seen: FxHashSet<[VertexId; 2]> = FxHashSet::default();
+        let mut open: Vec<([VertexId; 2], Option<TetId>)> =
+            boundary.iter().map(|&e| (e, None)).collect();
+        while let Some(([a, b], near)) = open.pop() {
+            if !seen.insert([a.min(b), a.max(b)]) {
+                continue;
+            }
+            let start = near
+                .or_else(|| self.incidence.tet_at_edge(self.mesh, a, b))
+                .expect("every subsegment is an edge of the mesh");
+            for t in self.mesh.around(start, a, b) {
+                let c = self.mesh.exit_around(t, a, b);
+                let [x, y, z] = face(self.mesh.facet(c));
+                if self.subpolygons.get(&[x, y, z]) == Some(&(f as u32)) && found.insert([x, y, z])
+                {
+                    faces.push(c);
+                    open.extend([[x, y], [x, z], [y, z]].map(|e| (e, Some(t))));
+                }
+            }
+        }
+        faces
+    }
+
+    /// What is in the way, in the terms of the input.
+    fn obstacle(&self, blocked: Blocked) -> Obstacle {
+        match blocked {
+            Blocked::Edge([a, b]) => {
+                let s = self.subsegments.segment_of(a, b);
+                let s = s.expect("only subsegments are kept") as usize;
+                Obstacle::Segment(self.complex.segments[s].ends)
+            }
+            Blocked::Triangle(t) => {
+                let g = self.subpolygons[&t] as usize;
+                Obstacle::Polygon(self.complex.polygons[g].facets.clone())
+            }
+            Blocked::NoFlip(t) => Obstacle::NoFlip(t),
+            Blocked::TooLate(t) => Obstacle::TooLate(t),
+        }
+    }
+}
