@@ -10,7 +10,7 @@ pub fn word<T>(result: &Result<T, Failure>) -> &'static str {
     match result {
         Ok(_) => OK,
         Err(Failure::Delaunay(_)) => "flat-vertex-set",
-        Err(Failure::Plc(_) | Failure::Invalid(_)) => "invalid-plc",
+        Err(Failure::Plc(_) | Failure::Invalid(_) | Failure::NoSuchPolygon(_)) => "invalid-plc",
         Err(Failure::GaveUp(gave_up)) => match gave_up {
             GaveUp::SegmentTooShort { .. } => "segment-too-short",
             GaveUp::TooManySteinerPoints { .. } => "too-many-steiner-points",
