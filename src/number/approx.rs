@@ -26,8 +26,8 @@
 //! **Overflow.** If any v overflows then so does its m by (I1), and an infinite or NaN m propagates to the end,
 //! where the comparison |v| > bound is false. So the answer is "unknown", never wrong.
 //!
-//! **Sign.** |v| > k·u′·m implies that x has the sign of v. The bound is computed as fl(k·u′·m)·(1 + 2⁻⁵⁰), which is at
-//! least k·u′·m if that is not subnormal; where it is, v ≥ 2T settles it, because k·u′·m < T there.
+//! **Sign.** The bound is computed as fl(fl(k·u′·m)(1 + 2⁻⁴⁹)) + T: where k·u′·m ≤ T the last term is enough, and where
+//! it is larger nothing underflows and the factor pays for the roundings. |v| above it implies that x has the sign of v.
 //!
 //! **Zero.** [`Approx::sign`] never certifies zero. If x is known to be an integer multiple of some quantum q (all
 //! coordinates on a grid), |v| + bound < q does: [`Approx::sign_on_grid`].

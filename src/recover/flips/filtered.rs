@@ -1,5 +1,7 @@
 //! Exact flip order at the price of floats: each event carries a float enclosure of its time; where two enclosures
 //! overlap, the exact quotients decide, computed once per event and kept; where those are equal, the perturbation.
+//! Exact quotients are of 64-bit integers where the floats are certain of those (`filter.rs`: small coordinates on a grid),
+//! else of dyadic numbers of any size.
 //!
 //! # The enclosure
 //! N and D are evaluated over [`Approx`], which gives n, d and bounds e ≥ |N − n|, g ≥ |D − d|, valid for every finite
@@ -14,15 +16,17 @@
 //!
 //! > w = (e + (|q̂| + T)·g)/(d − g)·(1 + 2⁻⁴⁸) + |q̂|·2⁻⁵² + T.
 //!
-//! The fraction has five roundings and the factor 1 + 2u to make up for, which 1 + 2⁻⁴⁸ = 1 + 32u does; its product may
+//! The fraction has five roundings, the sums after it three, and the factor 1 + 2u is to be made up for; 1 + 2⁻⁴⁸ = 1 + 32u
+//! does all that (`paper/theory.tex` has it in detail); the product may
 //! underflow and lose η/2 ≤ u·e, because e ≥ T ([`Approx::error`]); d − g is a difference of doubles and does not
 //! underflow; the quotient may, and loses η/2, which the last T covers together with that of q̂. Overflow makes w infinite
 //! or NaN, and then no comparison is decided by it.
 //!
 //! # The comparison
-//! Both numbers are multiplied by a power of two that brings the first time of a region near 1, and w is then rounded up
-//! to single precision, which halves what the queue has to move. A product that underflows errs by at most η/2, which the
-//! rounding up (to at least 2⁻¹⁴⁹) covers; an overflow gives an infinite or NaN enclosure.
+//! Both numbers are multiplied by a power of two that brings the first time of a region near 1, and w is then rounded to
+//! single precision and from there to the next number above, so that the queue has less to move. A product that underflows
+//! errs by at most η/2, twice that is less than the 2⁻¹⁵⁰ by which w has grown at least; an overflow gives an infinite or NaN
+//! enclosure.
 //!
 //! q̂_B − q̂_A > (w_A + w_B)(1 + 2⁻⁵⁰) in floats implies τ_A < τ_B: the left side is at most (1 + u) times its exact value,
 //! the right side at least (1 + 2⁻⁵⁰)(1 − 2u) > 1 + u times w_A + w_B. NaN and infinity make it false.
