@@ -1,7 +1,8 @@
 //! Polygon insertion by retriangulating R as a whole: cavities or gift wrapping, and what comes after a refusal.
 //!
 //! Cavity retriangulation, where it is chosen, is tried first, and gift wrapping of the two original cavities where it is
-//! refused. Gift wrapping is refused only if f is not flat or the PLC not valid; then the caller flips.
+//! refused. Gift wrapping is refused only if f is not flat or the PLC not valid; then the caller flips. It also flips in
+//! place of a fallback on gift wrapping, whose time is quadratic, in regions of more than [`MOST_WRAPPED`] tetrahedra.
 
 use super::cavity::{self, Face, Refused, Retriangulation};
 use super::gift_wrap::gift_wrap;
@@ -10,6 +11,9 @@ use super::polygons::{PolygonInsertion, count_shims};
 use super::region::Region;
 use super::side::Sides;
 use crate::predicate::PointStore;
+
+/// The largest region that is gift wrapped because cavity retriangulation was refused: seconds, not minutes.
+pub const MOST_WRAPPED: usize = 10_000;
 
 impl<P: PointStore> PolygonInsertion<'_, P> {
     /// Retriangulates one region as a whole, and returns the polygons that this displaced; `None` if it is refused.
@@ -32,10 +36,15 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             }
             self.counts.cavity_fallbacks += 1;
         }
-        let found = orientations.find_map(|sides| self.by_gift_wrapping(sides, region));
+        let is_fallback = self.insertion == Insertion::Cavity;
+        let found = if is_fallback && region.tets.len() > MOST_WRAPPED {
+            None
+        } else {
+            orientations.find_map(|sides| self.by_gift_wrapping(sides, region))
+        };
         if found.is_none() {
             self.counts.flip_fallbacks += 1;
-        } else if self.insertion == Insertion::Cavity {
+        } else if is_fallback {
             self.counts.gift_wrap_fallbacks += 1;
         }
         found.map(|r| self.graft(f, sides, &r))
