@@ -105,7 +105,8 @@ impl Cdt<DoublePoints> {
     }
 }
 
-impl<P: PointStore> Cdt<P> {
+// For one point store, so that the flips in all their number types are compiled here, once, and not in every program.
+impl Cdt<DoublePoints> {
     /// Inserts all polygons of the complex (paper §3) that are not in the mesh. `progress` is told how many are done.
     ///
     /// # Errors
@@ -157,7 +158,7 @@ impl<P: PointStore> Cdt<P> {
         insertion: Insertion,
         report: &mut Report,
         watch: Option<&'a mut dyn Watch>,
-        run: impl FnOnce(&mut PolygonInsertion<P>) -> Result<(), Failure>,
+        run: impl FnOnce(&mut PolygonInsertion<DoublePoints>) -> Result<(), Failure>,
     ) -> Result<PolygonCounts, Failure> {
         report.insertion = Some(insertion);
         report.time(Phase::Polygons, move |report| {
