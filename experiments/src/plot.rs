@@ -67,14 +67,18 @@ pub struct Plot {
 /// Width and height of a plot in pixels.
 const SIZE: (u32, u32) = (720, 480);
 
-/// Okabe & Ito's colours that the colour-blind can tell apart.
-const COLORS: [RGBColor; 6] = [
+/// Okabe & Ito's colours that the colour-blind can tell apart, but for their yellow, which white swallows; then three darker
+/// ones. Series whose colours are alike differ in shape.
+const COLORS: [RGBColor; 9] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
     RGBColor(204, 121, 167),
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
+    RGBColor(0, 0, 0),
+    RGBColor(130, 75, 20),
+    RGBColor(115, 60, 190),
 ];
 
 impl Plot {
