@@ -2,14 +2,7 @@
 
 use crate::measure::{DIFFERENT, Measured, is_broken};
 use crate::plan::name_of;
-
-/// A statement and what breaks it.
-pub struct Expectation {
-    /// What is expected.
-    pub statement: &'static str,
-    /// The inputs, with the number type, of which it does not hold.
-    pub broken_by: Vec<String>,
-}
+use tetflip_experiments::expectation::Expectation;
 
 /// All expectations.
 pub fn expectations(inputs: &[Measured]) -> Vec<Expectation> {

@@ -290,7 +290,11 @@ mod tests {
             naive.displaced,
             naive.endless,
         ];
-        assert_eq!((kinds.iter().sum::<u64>(), naive.other), (3, 0), "{kinds:?}");
+        assert_eq!(
+            (kinds.iter().sum::<u64>(), naive.other),
+            (3, 0),
+            "{kinds:?}"
+        );
         assert!(naive.failures() > 0);
         assert_eq!((of("all", "exact").ok, of("all", "exact").kendall), (3, 0));
         assert!(rows.iter().all(|r| r.commit == "c" && r.family == "prism"));
