@@ -11,6 +11,7 @@
 //! 4-4 flip, or one triangle twice).
 
 use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
 use tetflip::mesh::{TetId, VertexId};
 use tetflip::number::Dyadic;
 use tetflip::predicate::PointStore;
@@ -142,34 +143,22 @@ pub fn exact_ranks<P: PointStore>(points: &P, insertion: &Insertion) -> Vec<Opti
     ranks
 }
 
-/// The disorder of an insertion whose queue was ordered by `times`. O(n log n) exact comparisons.
+/// The disorder of an insertion whose queue was ordered by `times`. O(n log n) exact comparisons for n different circuits:
+/// without exact predicates flips can go around in circles, and then the same few come off the queue again and again.
 pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: Times) -> Disorder {
     let left = |v| is_left(points, insertion.frame, v);
     let motion = Motion::new(points, insertion.frame, &left);
-    let mut exact = ExactTimes::<P, Dyadic>::new(&motion);
     let circuits = popped_alive(insertion);
-    let timed = circuits
+    let (places, exact_ties) = places(&mut ExactTimes::<P, Dyadic>::new(&motion), &circuits);
+    let mut order: Vec<u64> = circuits
         .iter()
-        .filter_map(|&c| Some((c, exact.quotient(c)?)));
-    let timed: Vec<(Circuit, Quotient<Dyadic>)> = timed.collect();
-    let mut order: Vec<&(Circuit, Quotient<Dyadic>)> = timed.iter().collect();
-    let mut compare = |a: &(Circuit, Quotient<Dyadic>), b: &(Circuit, Quotient<Dyadic>)| {
-        exact.compare_quotients((a.0, &a.1), (b.0, &b.1))
-    };
-    let adjacent = order
-        .windows(2)
-        .filter(|w| compare(w[0], w[1]) == Ordering::Greater)
-        .count() as u64;
-    let kendall = sort_counting_inversions(&mut order, &mut |a, b| compare(a, b));
-    let mut exact_ties = 0;
-    for w in order.windows(2) {
-        let before = exact.undecided().ties;
-        let by_perturbation = exact.compare_quotients((w[0].0, &w[0].1), (w[1].0, &w[1].1));
-        let is_tie = exact.undecided().ties > before && by_perturbation != Ordering::Equal;
-        exact_ties += u64::from(is_tie);
-    }
-    let mut is_one = |a: Circuit, b: Circuit| match (exact.quotient(a), exact.quotient(b)) {
-        (Some(p), Some(q)) => exact.compare_quotients((a, &p), (b, &q)) == Ordering::Equal,
+        .filter_map(|c| places.get(c).copied())
+        .collect();
+    let (events, founded) = (circuits.len() as u64, order.len() as u64);
+    let adjacent = order.windows(2).filter(|w| w[0] > w[1]).count() as u64;
+    let kendall = sort_counting_inversions(&mut order, &mut |a, b| a.cmp(&b));
+    let mut is_one = |a: Circuit, b: Circuit| match (places.get(&a), places.get(&b)) {
+        (Some(p), Some(q)) => p == q,
         _ => false,
     };
     let rounded_ties = match times {
@@ -189,8 +178,8 @@ pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: Times) 
     };
     let (longest_list, list_left) = list_lengths(insertion);
     Disorder {
-        events: circuits.len() as u64,
-        unfounded: (circuits.len() - timed.len()) as u64,
+        events,
+        unfounded: events - founded,
         adjacent,
         kendall,
         exact_ties,
@@ -198,6 +187,33 @@ pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: Times) 
         longest_list,
         list_left,
     }
+}
+
+/// The place of each circuit in the exact order, equal for those that are one event; none for one that exact numbers would
+/// never have queued. And how many places have the time of the one before them, which the perturbation alone tells apart.
+fn places<P: PointStore>(
+    exact: &mut ExactTimes<P, Dyadic>,
+    circuits: &[Circuit],
+) -> (BTreeMap<Circuit, u64>, u64) {
+    let distinct: BTreeSet<Circuit> = circuits.iter().copied().collect();
+    let timed = distinct
+        .into_iter()
+        .filter_map(|c| Some((c, exact.quotient(c)?)));
+    let mut timed: Vec<(Circuit, Quotient<Dyadic>)> = timed.collect();
+    timed.sort_by(|a, b| exact.compare_quotients((a.0, &a.1), (b.0, &b.1)));
+    let (mut places, mut place, mut ties) = (BTreeMap::new(), 0, 0);
+    for (i, (circuit, quotient)) in timed.iter().enumerate() {
+        if let Some((before, earlier)) = i.checked_sub(1).map(|i| &timed[i]) {
+            let ties_before = exact.undecided().ties;
+            let order = exact.compare_quotients((*before, earlier), (*circuit, quotient));
+            if order != Ordering::Equal {
+                place += 1;
+                ties += u64::from(exact.undecided().ties > ties_before);
+            }
+        }
+        places.insert(*circuit, place);
+    }
+    (places, ties)
 }
 
 /// Events whose time, as `times` computes it, is that of their predecessor.

@@ -62,19 +62,25 @@ pub struct Plot {
     pub scale: Scale,
     /// The points; the series differ in colour and, as long as there are no more than three, in shape.
     pub series: Vec<Series>,
+    /// Grey lines through their points, for comparison.
+    pub guides: Vec<Series>,
 }
 
 /// Width and height of a plot in pixels.
 const SIZE: (u32, u32) = (720, 480);
 
-/// Okabe & Ito's colours that the colour-blind can tell apart.
-const COLORS: [RGBColor; 6] = [
+/// Okabe & Ito's colours that the colour-blind can tell apart, but for their yellow, which white swallows; then three darker
+/// ones. Series whose colours are alike differ in shape.
+const COLORS: [RGBColor; 9] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
     RGBColor(204, 121, 167),
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
+    RGBColor(0, 0, 0),
+    RGBColor(130, 75, 20),
+    RGBColor(115, 60, 190),
 ];
 
 impl Plot {
@@ -99,7 +105,7 @@ impl Plot {
         let positive = |x: f64| x > 0.0 || self.scale == Scale::Linear;
         let shown = |x: f64| x.is_finite() && positive(x);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for series in &self.series {
+        for series in self.series.iter().chain(&self.guides) {
             for (index, point) in series.points.iter().enumerate() {
                 if !shown(point.0) || !shown(point.1) {
                     return Err(PlotError::Point {
@@ -170,6 +176,12 @@ impl Plot {
             .light_line_style(WHITE.mix(0.0))
             .bold_line_style(BLACK.mix(0.12))
             .draw()?;
+        let grey = BLACK.mix(0.45).stroke_width(1);
+        for guide in &self.guides {
+            let line = LineSeries::new(guide.points.iter().copied(), grey);
+            let key = move |(x, y)| PathElement::new([(x, y), (x + 20, y)], grey);
+            chart.draw_series(line)?.label(&guide.name).legend(key);
+        }
         for (i, series) in self.series.iter().enumerate() {
             let color = COLORS[i % COLORS.len()];
             let (filled, line) = (color.filled(), color.stroke_width(2));
@@ -225,6 +237,7 @@ mod tests {
             y_label: "seconds".to_string(),
             scale,
             series: series.collect(),
+            guides: Vec::new(),
         }
     }
 
@@ -260,6 +273,18 @@ mod tests {
             plot(Scale::Linear, POINTS).svg(),
             plot(Scale::Log, POINTS).svg()
         );
+    }
+
+    #[test]
+    fn guides_are_lines() {
+        let mut plot = plot(Scale::Log, POINTS);
+        plot.guides = vec![Series {
+            name: "n log n".to_string(),
+            points: vec![(102.0, 1.0), (1e4, 200.0)],
+        }];
+        assert_eq!(plot.range(|p| p.0).map(|r| r.end), Ok(1.25e4));
+        let svg = plot.svg().unwrap();
+        assert!(svg.contains("n log n") && svg.matches("<polyline").count() > 1);
     }
 
     #[test]

@@ -1,18 +1,8 @@
 //! What the rows must say. Of times nothing is asserted: they are the machine's.
 
 use crate::row::Row;
+use tetflip_experiments::expectation::{Check, Expectation, check_rows};
 use tetflip_experiments::method::Method;
-
-/// A statement and the rows that break it.
-pub struct Expectation {
-    /// What is expected of every row.
-    pub statement: &'static str,
-    /// The names of the rows of which it does not hold.
-    pub broken_by: Vec<String>,
-}
-
-/// One expectation: what it says, and the check of a row.
-type Check<'a> = (&'static str, &'a dyn Fn(&Row) -> bool);
 
 /// All expectations.
 pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
@@ -20,7 +10,7 @@ pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
         let mut methods = Method::all().into_iter();
         methods.any(|m| m.always_succeeds() && row.is_of(m))
     };
-    let checks: [Check; 7] = [
+    let checks: [Check<Row>; 7] = [
         ("cavities and exact flips always succeed", &|r| {
             r.is_ok() || !is_safe(r)
         }),
@@ -45,11 +35,7 @@ pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
         }),
         ("repetitions repeat counts and outcome", &|r| r.repeatable),
     ];
-    let expectations = checks.into_iter().map(|(statement, holds)| Expectation {
-        statement,
-        broken_by: rows.iter().filter(|r| !holds(r)).map(Row::name).collect(),
-    });
-    expectations.collect()
+    check_rows(rows, &checks, Row::name)
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ use row::Row;
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use tetflip_experiments::expectation::{self, Expectation};
 use tetflip_experiments::method::Method;
 use tetflip_experiments::record::{Machine, Results};
 
@@ -110,18 +111,11 @@ fn judge(rows: &[Row]) -> ExitCode {
     for row in failed {
         println!("  {}: {}, {} left", row.name(), row.outcome, row.left);
     }
-    let mut code = ExitCode::SUCCESS;
-    for expectation in expect::expectations(rows) {
-        let holds = expectation.broken_by.is_empty();
-        println!(
-            "[{}] {}",
-            if holds { "ok" } else { "BROKEN" },
-            expectation.statement
-        );
-        for name in expectation.broken_by {
-            println!("  not: {name}");
-            code = ExitCode::FAILURE;
-        }
+    let expectations = expect::expectations(rows);
+    print!("{}", expectation::text(&expectations));
+    if expectations.iter().all(Expectation::holds) {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
     }
-    code
 }

@@ -1,6 +1,7 @@
 //! Which scenes, and how much time for each.
 
 use tetflip_experiments::scene::Slab;
+use tetflip_experiments::turns::Effort;
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -9,25 +10,6 @@ pub struct Plan {
     pub scenes: Vec<Slab>,
     /// How often each insertion is timed.
     pub effort: Effort,
-}
-
-/// How often each insertion is timed: a time for one scene, in bounds.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// Seconds for all repetitions of all methods together.
-    pub seconds: f64,
-    /// Repetitions at least.
-    pub least: usize,
-    /// Repetitions at most.
-    pub most: usize,
-}
-
-impl Effort {
-    /// The number of repetitions, given what the first round of all methods took.
-    pub fn repetitions(&self, first_round: f64) -> usize {
-        // A cast from a float saturates.
-        ((self.seconds / first_round) as usize).clamp(self.least, self.most)
-    }
 }
 
 /// The half height of all scenes.
@@ -52,6 +34,7 @@ impl Plan {
                 seconds: 0.6,
                 least: 3,
                 most: 501,
+                of_slow: 0,
             },
         }
     }
@@ -64,6 +47,7 @@ impl Plan {
                 seconds: 0.05,
                 least: 3,
                 most: 21,
+                of_slow: 0,
             },
         }
     }
@@ -89,14 +73,6 @@ fn scenes(sizes: impl IntoIterator<Item = (usize, u64)>) -> Vec<Slab> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn repetitions_fill_the_time() {
-        let effort = Plan::full().effort;
-        assert_eq!(effort.repetitions(effort.seconds / 10.0), 10);
-        assert_eq!(effort.repetitions(1e3), effort.least);
-        assert_eq!(effort.repetitions(0.0), effort.most);
-    }
 
     #[test]
     fn no_scene_twice() {

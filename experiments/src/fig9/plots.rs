@@ -64,6 +64,7 @@ impl Figure {
             y_label: "median time in milliseconds".to_string(),
             scale: self.scale,
             series: series.collect(),
+            guides: Vec::new(),
         };
         plot.svg()
     }

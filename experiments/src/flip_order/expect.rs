@@ -2,14 +2,7 @@
 
 use crate::measure::{DIFFERENT, Measured, is_broken};
 use crate::plan::name_of;
-
-/// A statement and what breaks it.
-pub struct Expectation {
-    /// What is expected.
-    pub statement: &'static str,
-    /// The inputs, with the number type, of which it does not hold.
-    pub broken_by: Vec<String>,
-}
+use tetflip_experiments::expectation::Expectation;
 
 /// All expectations.
 pub fn expectations(inputs: &[Measured]) -> Vec<Expectation> {
@@ -44,6 +37,9 @@ pub fn expectations(inputs: &[Measured]) -> Vec<Expectation> {
         ),
         of_inputs("cavity retriangulation ends in the same tetrahedra", &|m| {
             !m.cavity_agrees
+        }),
+        of_inputs("gift wrapping ends in the same tetrahedra", &|m| {
+            !m.gift_wrap_agrees
         }),
         of_inputs("the verifier accepts all results of its sample", &|m| {
             m.verified == Some(false)
@@ -90,16 +86,24 @@ mod tests {
             }),
             [2]
         );
+        let gift_wrap_agrees = false;
+        assert_eq!(
+            broken(Measured {
+                gift_wrap_agrees,
+                ..good.clone()
+            }),
+            [3]
+        );
         let verified = Some(false);
         assert_eq!(
             broken(Measured {
                 verified,
                 ..good.clone()
             }),
-            [3]
+            [4]
         );
         let mut bad = good;
         bad.counts.not_flat = 1;
-        assert_eq!(broken(bad), [4]);
+        assert_eq!(broken(bad), [5]);
     }
 }

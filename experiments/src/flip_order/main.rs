@@ -27,6 +27,7 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use tetflip_experiments::expectation::{self, Expectation};
 use tetflip_experiments::family::Member;
 use tetflip_experiments::record::{Machine, Results};
 
@@ -140,15 +141,11 @@ fn measure_all(plan: &Plan) -> Vec<Measured> {
 
 /// Says which expectations hold.
 fn judge(inputs: &[Measured]) -> ExitCode {
-    let mut code = ExitCode::SUCCESS;
-    for expectation in expect::expectations(inputs) {
-        let holds = expectation.broken_by.is_empty();
-        let mark = if holds { "ok" } else { "BROKEN" };
-        println!("[{mark}] {}", expectation.statement);
-        for name in expectation.broken_by {
-            println!("  not: {name}");
-            code = ExitCode::FAILURE;
-        }
+    let expectations = expect::expectations(inputs);
+    print!("{}", expectation::text(&expectations));
+    if expectations.iter().all(Expectation::holds) {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
     }
-    code
 }

@@ -26,7 +26,7 @@ pub struct Run {
     pub times: Times,
     /// `ok`: the tetrahedra of the CDT. Otherwise [`DIFFERENT`], or the kind of failure.
     pub outcome: &'static str,
-    /// Crossing tetrahedra left, or faces that are not locally Delaunay.
+    /// How much is wrong then: see [`outcome::left`].
     pub left: usize,
     /// What the flips were, also before a failure.
     pub counts: FlipCounts,
@@ -63,6 +63,8 @@ pub struct Measured {
     pub counts: PolygonCounts,
     /// Whether cavity retriangulation ended in the same tetrahedra as exact flips.
     pub cavity_agrees: bool,
+    /// Whether gift wrapping did.
+    pub gift_wrap_agrees: bool,
     /// Whether the verifier found them to be the CDT; none if this input is not in its sample.
     pub verified: Option<bool>,
     /// The runs, in the order of the plan.
@@ -78,7 +80,10 @@ pub fn measure(member: Member, plan: &Plan) -> Measured {
         .numbers
         .iter()
         .filter(|n| member.seed.is_multiple_of(n.every));
-    let cavity = tets_by(&prepared.cdt, Insertion::Cavity);
+    let agrees = |insertion| {
+        let result = tets_by(&prepared.cdt, insertion);
+        result.is_ok_and(|(tets, _)| Some(&tets) == expected)
+    };
     let sampled = member.seed.is_multiple_of(plan.verify_every);
     Measured {
         member,
@@ -86,7 +91,8 @@ pub fn measure(member: Member, plan: &Plan) -> Measured {
         polygons: prepared.plc.facets.len(),
         steiner_points: prepared.steiner_points,
         counts: reference.as_ref().map(|(_, c)| *c).unwrap_or_default(),
-        cavity_agrees: cavity.is_ok_and(|(tets, _)| Some(&tets) == expected),
+        cavity_agrees: agrees(Insertion::Cavity),
+        gift_wrap_agrees: agrees(Insertion::GiftWrap),
         verified: sampled.then(|| is_cdt(&prepared)),
         runs: of_seed
             .map(|n| run(&prepared.cdt, n.times, expected))

@@ -47,6 +47,7 @@ impl Plan {
 fn number_types() -> Vec<NumberType> {
     let on_all = |times| NumberType { times, every: 1 };
     let on_sample = |times| NumberType { times, every: 10 };
+    let on_few = |times| NumberType { times, every: 20 };
     let mut all = vec![
         on_all(Times::F32),
         on_all(Times::F64),
@@ -55,7 +56,7 @@ fn number_types() -> Vec<NumberType> {
         on_all(Times::Naive),
     ];
     all.extend(Bits::ALL.iter().map(|&bits| on_sample(Times::Wide(bits))));
-    all.push(on_sample(Times::Rational));
+    all.push(on_few(Times::Rational));
     #[cfg(feature = "rug")]
     all.push(on_sample(Times::Rug));
     all

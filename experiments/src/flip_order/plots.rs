@@ -25,6 +25,7 @@ pub fn precision(rows: &[Summary]) -> Result<String, PlotError> {
         y_label: "part of the inputs".to_string(),
         scale: Scale::Log,
         series: series.filter(|s| !s.points.is_empty()).collect(),
+        guides: Vec::new(),
     };
     plot.svg()
 }

@@ -65,6 +65,12 @@ pub struct Summary {
     pub stuck_no_tetrahedralization: u64,
     pub stuck_tetrahedralizable: u64,
     pub stuck_undecided: u64,
+    /// Naive runs that ended with inverted tetrahedra.
+    pub inverted: u64,
+    /// Runs that tore triangles of other polygons out of the mesh.
+    pub displaced: u64,
+    /// Naive runs that were broken off, because their flips went around in circles.
+    pub endless: u64,
     /// Runs that ended otherwise.
     pub other: u64,
     /// The part of the runs that did not end in the CDT.
@@ -101,6 +107,9 @@ impl Summary {
             "ok" => self.ok += 1,
             "not-delaunay" => self.not_delaunay += 1,
             "stuck" => self.stuck += 1,
+            "inverted" => self.inverted += 1,
+            "displaced" => self.displaced += 1,
+            "endless" => self.endless += 1,
             _ => self.other += 1,
         }
         match run.class() {
@@ -179,7 +188,8 @@ pub struct FailureRow {
     pub crossing_tets: u64,
     /// The kind of failure.
     pub outcome: &'static str,
-    /// Crossing tetrahedra left, or faces that are not locally Delaunay.
+    /// How much is wrong then: crossing tetrahedra, faces that are not locally Delaunay, inverted tetrahedra, or displaced
+    /// triangles.
     pub left: usize,
     /// The worst class of what a stuck run left.
     pub class: &'static str,
@@ -271,6 +281,21 @@ mod tests {
             f64.kendall,
             of("end", "f64").kendall + of("right", "f64").kendall
         );
+        let naive = of("all", "naive");
+        let kinds = [
+            naive.ok,
+            naive.not_delaunay,
+            naive.stuck,
+            naive.inverted,
+            naive.displaced,
+            naive.endless,
+        ];
+        assert_eq!(
+            (kinds.iter().sum::<u64>(), naive.other),
+            (3, 0),
+            "{kinds:?}"
+        );
+        assert!(naive.failures() > 0);
         assert_eq!((of("all", "exact").ok, of("all", "exact").kendall), (3, 0));
         assert!(rows.iter().all(|r| r.commit == "c" && r.family == "prism"));
         let failures = failures(&inputs);

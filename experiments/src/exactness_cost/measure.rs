@@ -1,0 +1,95 @@
+//! One input: every method on a copy of the same tetrahedralization, timed in turns and verified.
+
+use crate::input::Input;
+use crate::plan;
+use crate::row::{Row, decided};
+use tetflip::cdt::Cdt;
+use tetflip::report::Report;
+use tetflip_experiments::method::Method;
+use tetflip_experiments::outcome;
+use tetflip_experiments::sample::{median, minimum};
+use tetflip_experiments::turns::{Effort, Runs, Scene};
+
+/// One row per method.
+pub fn measure(input: &Input, methods: &[Method], effort: &Effort) -> Vec<Row> {
+    let plc = input.plc();
+    let mut report = Report::default();
+    let cdt = match Cdt::with_segments(&plc, true, &mut report) {
+        Ok(cdt) => cdt,
+        Err(failure) => {
+            let outcome = outcome::word::<()>(&Err(failure));
+            let failed = |&m| Row {
+                outcome,
+                ..Row::new(input, m)
+            };
+            return methods.iter().map(failed).collect();
+        }
+    };
+    let scene = Scene::measure(&plc, &cdt, methods, effort, plan::is_slow);
+    let (verified, agree) = (scene.verdicts(&plc), scene.agrees());
+    let row = |r: &Runs| {
+        let (counts, flips) = (&r.counts, &r.counts.flips);
+        let decided = decided(r.method, flips);
+        Row {
+            vertices: plc.vertices.len(),
+            steiner_points: report.steiner_points,
+            crossing_tets: counts.crossing_tets,
+            repetitions: r.seconds.len(),
+            median_seconds: median(&r.seconds),
+            min_seconds: minimum(&r.seconds),
+            outcome: outcome::word(&r.result),
+            left: outcome::left(&r.result),
+            comparisons: flips.comparisons,
+            by_floats: decided.map(|d| d.by_floats),
+            by_exact_quotients: decided.map(|d| d.by_exact_quotients),
+            by_perturbation: decided.map(|d| d.by_perturbation),
+            big_quotients: flips.big_quotients,
+            queued: flips.queued,
+            stale: flips.stale,
+            flips: flips.flips(),
+            patches: flips.postponed + flips.discarded_outside + flips.non_crossing,
+            fallbacks: counts.cavity_fallbacks + counts.flip_fallbacks,
+            repeatable: r.repeatable,
+            agrees: r.result.is_ok().then_some(agree),
+            verified: r.result.as_ref().ok().map(|&mesh| verified[mesh]),
+            ..Row::new(input, r.method)
+        }
+    };
+    scene.runs.iter().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expect::expectations;
+    use crate::input::{Cut, Kind};
+    use crate::plan::methods;
+    use tetflip_experiments::expectation::Expectation;
+
+    #[test]
+    fn ties_are_the_perturbations_and_random_times_are_floats() {
+        let effort = Effort {
+            seconds: 0.0,
+            least: 1,
+            most: 1,
+            of_slow: 1,
+        };
+        let filtered = |kind| {
+            let input = Input {
+                kind,
+                about: 300,
+                seed: 1,
+            };
+            let rows = measure(&input, &methods(), &effort);
+            assert_eq!(rows.len(), methods().len());
+            assert!(expectations(&rows).iter().all(Expectation::holds));
+            let mut rows = rows.into_iter();
+            rows.find(|r| r.method == "flip filtered").expect("a row")
+        };
+        let slab = filtered(Kind::Slab);
+        assert!(slab.is_ok() && slab.by_floats > Some(0.99), "{slab:?}");
+        let lattice = filtered(Kind::Lattice(Cut::Between));
+        assert!(lattice.by_perturbation > Some(0.2), "{lattice:?}");
+        assert!(lattice.repetitions == 1 && lattice.flips > 100);
+    }
+}

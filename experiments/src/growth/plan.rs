@@ -1,0 +1,66 @@
+//! Which sizes, how often.
+
+use tetflip::recover::polygons::{Insertion, Times};
+use tetflip_experiments::method::Method;
+use tetflip_experiments::scene::Slab;
+use tetflip_experiments::turns::Effort;
+
+/// Crossing tetrahedra for each vertex of the slab.
+const DENSITY: f64 = 3.3;
+
+/// The methods, in the order of tables.
+pub const METHODS: [Method; 2] = [
+    Method(Insertion::Flip(Times::Filtered)),
+    Method(Insertion::Cavity),
+];
+
+/// The scene with about so many crossing tetrahedra.
+pub fn slab(crossing: u64) -> Slab {
+    Slab {
+        vertices: (crossing as f64 / DENSITY) as usize,
+        half_height: 0.01,
+        seed: 1,
+    }
+}
+
+/// What to run.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// About how many crossing tetrahedra, ascending.
+    pub sizes: Vec<u64>,
+    /// Seconds of repetitions for each size.
+    pub seconds: f64,
+}
+
+impl Plan {
+    /// Two minutes.
+    pub fn full() -> Plan {
+        Plan {
+            sizes: vec![1000, 3000, 10_000, 30_000, 100_000, 300_000, 1_000_000],
+            seconds: 1.0,
+        }
+    }
+
+    /// Some seconds.
+    pub fn quick() -> Plan {
+        Plan {
+            sizes: vec![1000, 3000, 10_000],
+            seconds: 0.2,
+        }
+    }
+
+    /// How often the insertions of one size are timed: large ones less often.
+    pub fn effort(&self, crossing: u64) -> Effort {
+        let least = match crossing {
+            0..=30_000 => 5,
+            30_001..=300_000 => 3,
+            _ => 2,
+        };
+        Effort {
+            seconds: self.seconds,
+            least,
+            most: 101,
+            of_slow: 0,
+        }
+    }
+}
