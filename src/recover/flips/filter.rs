@@ -14,7 +14,7 @@ use super::motion::Motion;
 use crate::mesh::VertexId;
 use crate::number::{Approx, Sign, Vec3};
 use crate::predicate::PointStore;
-use crate::predicate::formula::{self, Lifted};
+use crate::predicate::formula::Lifted;
 
 /// The error index of an orient3d determinant of given doubles; see [`Approx`].
 const RATE_INDEX: u32 = 8;
@@ -189,42 +189,46 @@ impl<'a, P: PointStore> Filter<'a, P> {
         Some(Evaluated { n, d, integers })
     }
 
-    /// The signs of c_x, c_y, c_z of a circuit, for a triangle xyz of the lifted tetrahedron, where they are certain: the
-    /// volumes of the tetrahedron with the apex in place of x, of y, of z, negated.
+    /// The signs of c_x, c_y, c_z of a circuit, for a triangle xyz of the lifted tetrahedron, where they are certain, and all
+    /// five coefficients in quanta, if all are certain: c_w is the volume of the tetrahedron, and those of its vertices are
+    /// the volumes with the apex in their place, negated.
     #[inline(always)]
     pub(super) fn signs(
         &mut self,
         tet: &LiftedTet,
-        [_, x, y, z, w]: [VertexId; 5],
-    ) -> [Option<Sign>; 3] {
+        [v, x, y, z, w]: [VertexId; 5],
+    ) -> ([Option<Sign>; 3], Option<[i64; 5]>) {
         let w = from_origin(&self.vertex(w), &tet.origin);
         let lifted = tet.lifted();
+        let volume = *lifted.volume();
         let [a, b, c] = lifted.with_in_place(&w);
-        let o = *lifted.volume() - &a - &b - &c;
-        let sign = |v: Approx| v.sign_on_grid(self.grid.coefficient);
+        let o = volume - &a - &b - &c;
+        let quantum = self.grid.coefficient;
+        let sign = |x: Approx| x.sign_on_grid(quantum);
         let volumes = [sign(o), sign(a), sign(b), sign(c)];
-        [x, y, z].map(|p| {
+        let place = |p: VertexId| {
             let place = tet.ids.iter().position(|&v| v == p);
-            volumes[place.expect("x, y, z are vertices of the tetrahedron")].map(|sign| -sign)
-        })
+            place.expect("v, x, y, z are the vertices of the tetrahedron")
+        };
+        let places = [place(v), place(x), place(y), place(z)];
+        let signs = [1, 2, 3].map(|i: usize| volumes[places[i]].map(|sign| -sign));
+        let integers = || {
+            let with_apex = [
+                in_quanta(&o, quantum)?,
+                in_quanta(&a, quantum)?,
+                in_quanta(&b, quantum)?,
+                in_quanta(&c, quantum)?,
+            ];
+            let [v, x, y, z] = places.map(|i| -with_apex[i]);
+            Some([v, x, y, z, in_quanta(&volume, quantum)?])
+        };
+        (signs, integers())
     }
 
     /// N and D of a circuit; `None` if certainly D ≤ 0.
     pub(super) fn evaluate(&mut self, [v, x, y, z, w]: [VertexId; 5]) -> Option<Evaluated> {
         let mut tet = self.lift([v, x, y, z]);
         self.evaluate_across(&mut tet, w)
-    }
-
-    /// The coefficients in quanta, if they are certain.
-    pub(super) fn integer_coefficients(&mut self, circuit: [VertexId; 5]) -> Option<[i64; 5]> {
-        let vertices = circuit.map(|v| self.vertex(v));
-        let p = vertices.map(|[x, y, z, _, _]| Vec3::<Approx>::from_f64([x, y, z]));
-        let (c, _) = formula::circuit(p.each_ref());
-        let mut integers = [0; 5];
-        for (integer, c) in integers.iter_mut().zip(&c) {
-            *integer = in_quanta(c, self.grid.coefficient)?;
-        }
-        Some(integers)
     }
 }
 

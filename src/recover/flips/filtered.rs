@@ -33,9 +33,7 @@
 
 use super::filter::{Filter, LiftedTet};
 use super::motion::Motion;
-use super::time::{
-    ExactTimes, FlipTimes, Quotient, Timed, Timing, Undecided, compare_perturbed, same_vertices,
-};
+use super::time::{ExactTimes, FlipTimes, Quotient, Timed, Timing, Undecided, same_vertices};
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Number, Sign};
 use crate::predicate::PointStore;
@@ -56,10 +54,54 @@ pub struct FilteredTime(Cell<u32>);
 /// An exact quotient.
 #[derive(Clone, Debug)]
 enum Exactly {
-    /// N and D in quanta of the grid that all coordinates lie on.
-    Integers([i64; 2]),
+    /// In quanta of the grid that all coordinates lie on.
+    Integers(Integers),
     /// In numbers of any size.
     Big(Box<Quotient<Dyadic>>),
+}
+
+/// N, D and the coefficients of a circuit in quanta of the grid that all coordinates lie on.
+#[derive(Clone, Debug)]
+struct Integers {
+    numerator: i64,
+    denominator: i64,
+    /// The identities of the five vertices, ascending, and their coefficients.
+    terms: [(u32, i64); 5],
+}
+
+impl Integers {
+    /// Which of two times comes first: the sign of t_0, then those of t_v. All products are of numbers of up to 53 bits.
+    fn compare(&self, other: &Integers, ties: &mut u64) -> Ordering {
+        let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
+        let (a, b) = (self, other);
+        let t0 = product(a.numerator, b.denominator).cmp(&product(b.numerator, a.denominator));
+        if t0.is_ne() {
+            return t0.reverse();
+        }
+        *ties += 1;
+        let (mut i, mut j) = (0, 0);
+        while i < 5 || j < 5 {
+            let (va, ca) = a.terms.get(i).copied().unwrap_or((u32::MAX, 0));
+            let (vb, cb) = b.terms.get(j).copied().unwrap_or((u32::MAX, 0));
+            let of_a = if va <= vb {
+                product(ca, b.denominator)
+            } else {
+                0
+            };
+            let of_b = if vb <= va {
+                product(cb, a.denominator)
+            } else {
+                0
+            };
+            let term = of_a.cmp(&of_b);
+            if term.is_ne() {
+                return term.reverse();
+            }
+            i += usize::from(va <= vb);
+            j += usize::from(vb <= va);
+        }
+        Ordering::Equal
+    }
 }
 
 /// Flip times whose order is exact and is mostly decided by floats.
@@ -118,26 +160,15 @@ impl<'a, P: PointStore> FilteredTimes<'a, P> {
         place
     }
 
-    /// The comparison of two quotients of integers of up to 53 bits; `None` if they are equal and the coefficients of the
-    /// circuits are not certain.
-    fn compare_integers(
-        &mut self,
-        (a, [na, da]): (&[VertexId; 5], [i64; 2]),
-        (b, [nb, db]): (&[VertexId; 5], [i64; 2]),
-    ) -> Option<Ordering> {
-        let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
-        let t0 = product(na, db).cmp(&product(nb, da));
-        if t0.is_ne() {
-            return Some(t0.reverse());
-        }
-        let ca = self.filter.integer_coefficients(*a)?;
-        let cb = self.filter.integer_coefficients(*b)?;
-        self.ties += 1;
-        Some(compare_perturbed(self.points, *a, *b, |i, j| {
-            let of_a = i.map_or(0, |i| product(ca[i], db));
-            let of_b = j.map_or(0, |j| product(cb[j], da));
-            of_a.cmp(&of_b).into()
-        }))
+    /// The coefficients of a circuit join N and D in integers, if they are certain, too.
+    fn integers(&self, circuit: [VertexId; 5], [n, d]: [i64; 2], c: [i64; 5]) -> Exactly {
+        let mut terms = [0, 1, 2, 3, 4].map(|i| (self.points.identity(circuit[i]), c[i]));
+        terms.sort_unstable();
+        Exactly::Integers(Integers {
+            numerator: n,
+            denominator: d,
+            terms,
+        })
     }
 }
 
@@ -162,7 +193,7 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
         let evaluated = self.filter.evaluate_across(lift, circuit[4])?;
         if evaluated.d.sign() != Some(Sign::Positive) {
             let quotient = self.exact.exact_quotient(circuit)?;
-            let signs = self.filter.signs(lift, circuit);
+            let (signs, _) = self.filter.signs(lift, circuit);
             let (middle, width) = (0.0, f32::INFINITY);
             return Some(Timing {
                 key: Enclosure { middle, width },
@@ -170,8 +201,12 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
                 signs,
             });
         }
-        let time = match evaluated.integers {
-            Some(integers) => self.keep(Exactly::Integers(integers)),
+        let (signs, coefficients) = self.filter.signs(lift, circuit);
+        let time = match evaluated.integers.zip(coefficients) {
+            Some((quotient, c)) => {
+                let integers = self.integers(circuit, quotient, c);
+                self.keep(integers)
+            }
             None => FilteredTime::default(),
         };
         let (middle, width) = enclosure(&evaluated.n, &evaluated.d);
@@ -180,7 +215,6 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
             middle: middle * scale,
             width: ((width * scale) as f32).next_up(),
         };
-        let signs = self.filter.signs(lift, circuit);
         Some(Timing { key, time, signs })
     }
 
@@ -209,10 +243,7 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
         if let (Exactly::Integers(qa), Exactly::Integers(qb)) =
             (&self.quotients[i], &self.quotients[j])
         {
-            let (qa, qb) = (*qa, *qb);
-            if let Some(order) = self.compare_integers((ca, qa), (cb, qb)) {
-                return order;
-            }
+            return qa.compare(qb, &mut self.ties);
         }
         let (i, j) = (self.big(a), self.big(b));
         match (&self.quotients[i], &self.quotients[j]) {
@@ -253,7 +284,7 @@ fn inverse_power(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicate::DoublePoints;
+    use crate::predicate::{DoublePoints, formula};
     use crate::recover::flips::event::Event;
     use num_rational::BigRational;
     use num_traits::Signed;
@@ -322,12 +353,17 @@ mod tests {
                     prop_assert!(distance <= rational(width.into()));
                 }
                 if let Some(place) = f.time.0.get().checked_sub(1)
-                    && let Exactly::Integers([fn_, fd]) = filtered.quotients[place as usize]
+                    && let Exactly::Integers(integers) = &filtered.quotients[place as usize]
                 {
-                    let (fn_, fd) = (BigRational::from_integer(fn_.into()), BigRational::from_integer(fd.into()));
                     let g = <BigRational as Number>::from_f64(2f64.powi(points.grid().expect("a grid")));
-                    prop_assert_eq!(&(fn_ * g.pow(5)), n);
-                    prop_assert_eq!(&(fd * g.pow(6)), d);
+                    let quanta = |k: i64, degree: i32| BigRational::from_integer(k.into()) * g.pow(degree);
+                    prop_assert_eq!(&quanta(integers.numerator, 5), n);
+                    prop_assert_eq!(&quanta(integers.denominator, 6), d);
+                    let (c, _) = formula::circuit(circuit.map(|v| points.coordinates::<BigRational>(v)).each_ref());
+                    for (v, k) in integers.terms {
+                        let place = circuit.iter().position(|&w| w.0 == v).expect("of the circuit");
+                        prop_assert_eq!(&quanta(k, 3), &c[place]);
+                    }
                 }
                 let event = Event { circuit, tet: crate::mesh::TetId(0), signs: [None; 3] };
                 events.push((event, f, e));

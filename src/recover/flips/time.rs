@@ -229,7 +229,7 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
     ) -> Option<Timing<(), Quotient<N>>> {
         self.filter.evaluate_across(lift, circuit[4])?;
         let time = self.exact_quotient(circuit)?;
-        let signs = self.filter.signs(lift, circuit);
+        let (signs, _) = self.filter.signs(lift, circuit);
         Some(Timing {
             key: (),
             time,
