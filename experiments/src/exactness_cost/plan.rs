@@ -139,7 +139,7 @@ mod tests {
     #[test]
     fn slow_methods_stop_early() {
         let names = |about| {
-            let names = methods_for(about).iter().map(Method::to_string);
+            let names = methods_for(about).into_iter().map(|m| m.to_string());
             names.collect::<Vec<String>>().join(", ")
         };
         assert_eq!(names(100_000), "flip f64, flip f32, flip filtered, cavity");

@@ -35,8 +35,12 @@ fn candidate(subfamily: &str, draw: &mut Draw) -> Plc {
         "tilted" => around_rectangle(tilted_axes(draw), draw),
         "layers" => layers(draw),
         jitter => {
-            let exponent = jitter.strip_prefix("jitter-").and_then(|e| e.parse().ok());
-            jittered(exponent.expect("a subfamily of this family"), draw)
+            let exponent = jitter
+                .strip_prefix("jitter")
+                .expect("a subfamily of this family");
+            // Parsing rounds correctly on all platforms, `powi` need not.
+            let step = format!("1e{exponent}").parse();
+            jittered(step.expect("a number"), draw)
         }
     }
 }
@@ -101,11 +105,10 @@ fn layers(draw: &mut Draw) -> Plc {
     one_polygon(doubles(all), 4)
 }
 
-fn jittered(exponent: i32, draw: &mut Draw) -> Plc {
+fn jittered(step: f64, draw: &mut Draw) -> Plc {
     let axes = axis_axes(draw);
     let (u, v) = axes;
     let (r, n) = (draw.int(2, 3), draw.int(6, 60) as usize);
-    let step = 10f64.powi(-exponent);
     let mut vertices = doubles(corners(axes));
     for p in draw.lattice_points(r, n) {
         let moved = p.map(|x| f64::from(x) + f64::from(draw.int(-2, 2)) * step);

@@ -118,7 +118,9 @@ fn side(subfamily: &str, draw: &mut Draw) -> Plc {
             }
         }
         "rotated" => {
-            let (sin, cos) = (std::f64::consts::PI * draw.fraction()).sin_cos();
+            // The tangent of half the angle: sines and cosines of the standard library differ between platforms.
+            let t = draw.fraction();
+            let (sin, cos) = (2.0 * t / (1.0 + t * t), (1.0 - t * t) / (1.0 + t * t));
             let [dx, dy, _] = draw.point();
             for p in &mut vertices {
                 let [x, y, z] = *p;

@@ -46,8 +46,8 @@ impl Plan {
 /// All number types. Those that are slow, because they are made of big integers, are run on a sample.
 fn number_types() -> Vec<NumberType> {
     let on_all = |times| NumberType { times, every: 1 };
-    let on_sample = |times| NumberType { times, every: 10 };
-    let on_few = |times| NumberType { times, every: 20 };
+    let on_sample = |times| NumberType { times, every: 20 };
+    let on_few = |times| NumberType { times, every: 50 };
     let mut all = vec![
         on_all(Times::F32),
         on_all(Times::F64),
@@ -58,7 +58,7 @@ fn number_types() -> Vec<NumberType> {
     all.extend(Bits::ALL.iter().map(|&bits| on_sample(Times::Wide(bits))));
     all.push(on_few(Times::Rational));
     #[cfg(feature = "rug")]
-    all.push(on_sample(Times::Rug));
+    all.push(on_few(Times::Rug));
     all
 }
 

@@ -16,6 +16,7 @@ pub fn measure(slab: Slab, methods: &[Method], effort: &Effort) -> Vec<Row> {
     let of_scene = |method: Method| Row {
         seed: slab.seed,
         vertices: slab.vertices,
+        half_height: slab.half_height,
         method: method.to_string(),
         ..Row::default()
     };

@@ -14,11 +14,19 @@ pub const METHODS: [Method; 2] = [
     Method(Insertion::Cavity),
 ];
 
-/// The scene with about so many crossing tetrahedra.
+/// The half height of scenes with up to [`FLAT`] vertices.
+const HALF_HEIGHT: f64 = 0.01;
+
+/// With more vertices than this the slab of that height is thick compared with their distances.
+const FLAT: f64 = 30_000.0;
+
+/// The scene with about so many crossing tetrahedra. Large ones are as much flatter as their vertices are closer to each other,
+/// because in a thick slab many tetrahedra do not cross the rectangle.
 pub fn slab(crossing: u64) -> Slab {
+    let n = crossing as f64 / DENSITY;
     Slab {
-        vertices: (crossing as f64 / DENSITY) as usize,
-        half_height: 0.01,
+        vertices: n as usize,
+        half_height: HALF_HEIGHT * (FLAT / n).sqrt().min(1.0),
         seed: 1,
     }
 }
@@ -62,5 +70,19 @@ impl Plan {
             most: 101,
             of_slow: 0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_large_slabs_are_flatter() {
+        assert_eq!(slab(3300).half_height, HALF_HEIGHT);
+        assert_eq!(slab(0).half_height, HALF_HEIGHT);
+        let large = slab(1_000_000);
+        let relative = large.half_height * (large.vertices as f64 / FLAT).sqrt();
+        assert!((relative / HALF_HEIGHT - 1.0).abs() < 1e-5);
     }
 }

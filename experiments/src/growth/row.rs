@@ -11,6 +11,7 @@ use tetflip_experiments::sample::rounded;
 pub struct Row {
     pub seed: u64,
     pub vertices: usize,
+    pub half_height: f64,
     pub steiner_points: usize,
     pub regions: u64,
     pub crossing_tets: u64,
