@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn a_written_plc_is_read_back() {
-        for member in ["prism/end:20", "walls/standing:1", "boxes/boxes:2"] {
+        for member in ["prism/end:78", "walls/standing:1", "boxes/boxes:2"] {
             let plc = member.parse::<Member>().expect("a name").prepare().plc;
             let directory = tempfile::TempDir::new().expect("a directory");
             let path = directory.path().join("a.poly");
@@ -141,10 +141,10 @@ mod tests {
 
     #[test]
     fn a_replay_tells_the_order_and_the_end() {
-        let member: Member = "prism/end:20".parse().expect("a name");
+        let member: Member = "prism/end:78".parse().expect("a name");
         let text = replay(member, Times::F64);
         assert!(text.contains("schoenhardt: 7 tets, 7 vertices"), "{text}");
-        assert!(!text.contains("0 pairs in the wrong order"), "{text}");
+        assert!(!text.contains(" 0 pairs in the wrong order"), "{text}");
         let text = replay(member, Times::Exact);
         assert!(
             text.contains("outcome: ok") && text.contains(" 0 pairs in the wrong order"),

