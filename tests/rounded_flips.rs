@@ -245,8 +245,8 @@ fn enough_bits_suffice_where_nothing_is_tied() {
 
 #[test]
 fn flips_that_do_not_end_are_stopped() {
-    let (cdt, outcome) = insert(&sphere(), times("naive:8")).expect("segments are there");
-    let failure = outcome.expect_err("eight bits");
+    let (cdt, outcome) = insert(&sphere(), times("naive:14")).expect("segments are there");
+    let failure = outcome.expect_err("fourteen bits");
     assert!(
         matches!(failure, Failure::GaveUp(GaveUp::Endless { .. })),
         "{failure:?}"
