@@ -6,9 +6,11 @@
 
 use crate::delaunay::delaunay;
 use crate::error::{DeletionRefused, Failure, GaveUp};
-use crate::mesh::{ExportedEdge, ExportedFace, ExportedMesh, Incidence, TetId, TetMesh, VertexId};
-use crate::plc::{Complex, Plc};
-use crate::predicate::{DoublePoints, PointStore};
+use crate::mesh::{
+    ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, Incidence, TetId, TetMesh, VertexId,
+};
+use crate::plc::{Complex, Plc, PlcError};
+use crate::predicate::{DoublePoints, PointStore, Steiner};
 use crate::recover::cavity::face;
 use crate::recover::deletion::{DeletionCounts, PolygonDeletion};
 use crate::recover::domain::{DomainMarks, keeps_edge, mark_domain};
@@ -16,6 +18,7 @@ use crate::recover::flips::Watch;
 use crate::recover::polygons::{
     Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons, Times,
 };
+use crate::recover::rounding::round;
 use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 use crate::report::{Phase, Report};
 
@@ -29,6 +32,8 @@ pub struct Options {
     /// Merge facets that are exactly coplanar, adjacent and equally marked into one polygon, so that their common edges
     /// are not constrained.
     pub merge_coplanar: bool,
+    /// How Steiner points are represented.
+    pub steiner: Steiner,
 }
 
 impl Default for Options {
@@ -37,6 +42,7 @@ impl Default for Options {
             insertion: Insertion::Flip(Times::Filtered),
             keep_hull: false,
             merge_coplanar: true,
+            steiner: Steiner::Rounded,
         }
     }
 }
@@ -73,12 +79,32 @@ impl Cdt<DoublePoints> {
         merge_coplanar: bool,
         report: &mut Report,
     ) -> Result<Self, Failure> {
+        let options = Options {
+            merge_coplanar,
+            ..Options::default()
+        };
+        Cdt::begin(plc, &options, report)
+    }
+
+    /// The same with Steiner points as `options` say. If they are exact, polygons of the input that are flat only to
+    /// rounding are divided into triangles first, so that everything is exactly flat and stays so.
+    ///
+    /// # Errors
+    /// [`Failure`], naming the vertices, segments or facets.
+    pub fn begin(plc: &Plc, options: &Options, report: &mut Report) -> Result<Self, Failure> {
+        report.steiner = options.steiner;
         report.input_vertices = plc.vertices.len();
         report.input_facets = plc.facets.len();
-        let complex = report.time(Phase::Complex, |_| Complex::new(plc, merge_coplanar))?;
+        let complex = report.time(Phase::Complex, |report| {
+            let mut complex = Complex::new(plc, options.merge_coplanar)?;
+            if options.steiner == Steiner::Exact {
+                report.triangulated_polygons = complex.triangulate_not_flat(plc)?;
+            }
+            Ok::<_, PlcError>(complex)
+        })?;
         report.segments = complex.segments.len();
         report.polygons = complex.polygons.len();
-        let mut points = DoublePoints::new(plc.vertices.clone());
+        let mut points = DoublePoints::new(plc.vertices.clone()).with_steiner(options.steiner);
         let distinct: Vec<VertexId> = (0..points.len())
             .map(VertexId::new)
             .filter(|&v| complex.representative[v.index()] == v)
@@ -90,6 +116,7 @@ impl Cdt<DoublePoints> {
             recover_segments(&complex, &mut points, &mut delaunay)
         });
         report.steiner_points = points.len() - plc.vertices.len();
+        report.steiner_not_doubles = points.no_doubles();
         let (subsegments, incidence) = recovered?;
         Ok(Cdt {
             points,
@@ -301,11 +328,14 @@ impl Cdt<DoublePoints> {
                 return Err(GaveUp::NothingInside.into());
             }
             tets.sort_unstable();
+            let vertices: Vec<[VertexId; 4]> = tets.iter().map(|&(v, _)| v).collect();
+            let rounding = round(&self.points, &vertices);
+            report.moved_by_rounding = rounding.moved;
+            report.spoilt_by_rounding = rounding.spoilt;
             let mesh = ExportedMesh {
                 first_index: plc.first_index,
-                vertices: (0..self.points.len())
-                    .map(|v| self.points.rounded(VertexId::new(v)))
-                    .collect(),
+                vertices: rounding.coordinates,
+                exact: self.exact_positions(),
                 regions: if marks.region.is_empty() {
                     Vec::new()
                 } else {
@@ -313,12 +343,26 @@ impl Cdt<DoublePoints> {
                 },
                 faces: self.faces(&marks),
                 edges: self.edges(&marks),
-                tets: tets.into_iter().map(|(v, _)| v).collect(),
+                tets: vertices,
             };
             report.output_tets = mesh.tets.len();
             report.output_faces = mesh.faces.len();
             Ok(mesh)
         })
+    }
+
+    /// Where the points are whose coordinates are no doubles.
+    fn exact_positions(&self) -> Vec<ExactPosition> {
+        let first = self.complex.representative.len();
+        let steiner = (first..self.points.len()).map(VertexId::new);
+        let rounded = steiner.filter(|&v| !self.points.is_double(v));
+        let position = |vertex: VertexId| {
+            let (ends, t) = self.subsegments.place_of_steiner(vertex)?;
+            Some(ExactPosition { vertex, ends, t })
+        };
+        rounded
+            .map(|v| position(v).expect("only points on segments are no doubles"))
+            .collect()
     }
 
     /// The subpolygons of the domain with their markers, and the faces of its boundary.
@@ -346,7 +390,8 @@ impl Cdt<DoublePoints> {
     /// The subsegments of the domain with their markers.
     fn edges(&self, marks: &DomainMarks) -> Vec<ExportedEdge> {
         let mut edges = Vec::new();
-        for (s, segment) in self.complex.segments.iter().enumerate() {
+        let given = self.complex.segments.len() - self.complex.diagonals;
+        for (s, segment) in self.complex.segments[..given].iter().enumerate() {
             let chain: Vec<VertexId> = self.subsegments.chain(s as u32).collect();
             for w in chain
                 .windows(2)
@@ -385,7 +430,7 @@ pub fn tetrahedralize(
     report: &mut Report,
     progress: &mut dyn FnMut(usize),
 ) -> Result<ExportedMesh, Failure> {
-    let mut cdt = Cdt::with_segments(plc, options.merge_coplanar, report)?;
+    let mut cdt = Cdt::begin(plc, options, report)?;
     cdt.insert_polygons(options.insertion, report, progress)?;
     cdt.export(plc, options.keep_hull, report)
 }

@@ -13,7 +13,7 @@ use tetflip::format::{
 };
 use tetflip::mesh::{ExportedFace, ExportedMesh, TetMesh, VertexId};
 use tetflip::plc::{Complex, Plc};
-use tetflip::predicate::DoublePoints;
+use tetflip::predicate::{DoublePoints, Steiner};
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
@@ -56,6 +56,9 @@ struct MeshArguments {
     /// 36, 40, 44, 48, 53, 64, 80, 106, 160 or 256.
     #[arg(long, value_name = "TYPE", default_value_t = Times::Filtered)]
     times: Times,
+    /// How Steiner points on segments are represented.
+    #[arg(long, value_enum, default_value_t = SteinerArgument::Rounded)]
+    steiner: SteinerArgument,
     /// Keep the whole convex hull instead of what the facets enclose.
     #[arg(long)]
     hull: bool,
@@ -83,8 +86,9 @@ struct VerifyArguments {
     #[arg(long, value_enum, default_value_t = DomainArgument::Auto)]
     domain: DomainArgument,
     /// How far a Steiner point may be from its segment or facet, in units in the last place of the largest coordinate.
-    #[arg(long, default_value_t = VerifyOptions::default().tolerance, value_parser = tolerance)]
-    tolerance: f64,
+    /// [default: 8, or 0 where NAME.steiner gives exact positions]
+    #[arg(long, value_parser = tolerance)]
+    tolerance: Option<f64>,
     /// Facets with one marker may have been merged if the angle between them is at least this many degrees. TetGen merges
     /// from 179.9 on. Only asked where the mesh does not hold with exactly coplanar facets merged, and then said.
     #[arg(long, value_parser = merge_angle, default_value_t = 179.9)]
@@ -131,6 +135,14 @@ enum InsertArgument {
     GiftWrap,
     /// Bistellar flips (paper §3.2).
     Flip,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SteinerArgument {
+    /// As doubles: segments and polygons with Steiner points are straight and flat up to rounding (paper).
+    Rounded,
+    /// Exactly: straight and flat; rounded only on output. NAME.steiner holds the exact positions.
+    Exact,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -186,6 +198,10 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         insertion: insertion(arguments),
         keep_hull: arguments.hull,
         merge_coplanar: !arguments.no_merge,
+        steiner: match arguments.steiner {
+            SteinerArgument::Rounded => Steiner::Rounded,
+            SteinerArgument::Exact => Steiner::Exact,
+        },
     };
     check_outputs(
         &arguments.input,
@@ -228,6 +244,10 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
             &mesh,
             VerifyOptions {
                 domain,
+                tolerance: match options.steiner {
+                    Steiner::Rounded => VerifyOptions::default().tolerance,
+                    Steiner::Exact => 0.0,
+                },
                 ..VerifyOptions::default()
             },
         );
@@ -248,8 +268,30 @@ fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
             report.insertion_counts.flips.flips(),
             if arguments.verify { "; verified" } else { "" },
         ));
+        if !report.spoilt_by_rounding.is_empty() {
+            say(&spoilt_by_rounding(
+                &report.spoilt_by_rounding,
+                plc.first_index,
+            ));
+        }
     }
     Ok(())
+}
+
+/// Names the tetrahedra that are positive only with exact Steiner points.
+fn spoilt_by_rounding(tets: &[usize], first_index: u32) -> String {
+    const LISTED: usize = 20;
+    let names: Vec<String> = tets
+        .iter()
+        .take(LISTED)
+        .map(|t| (t + first_index as usize).to_string())
+        .collect();
+    format!(
+        "{} tetrahedra are positive, but not with Steiner points rounded to doubles: {}{} (the report lists all)",
+        tets.len(),
+        names.join(", "),
+        if tets.len() > LISTED { ", …" } else { "" }
+    )
 }
 
 fn insertion(arguments: &MeshArguments) -> Insertion {
@@ -294,7 +336,10 @@ fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
             DomainArgument::Hull => Domain::Hull,
             DomainArgument::Inside => Domain::Inside,
         },
-        tolerance: arguments.tolerance,
+        tolerance: arguments.tolerance.unwrap_or(match mesh.exact[..] {
+            [] => VerifyOptions::default().tolerance,
+            _ => 0.0,
+        }),
         ..VerifyOptions::default()
     };
     let mut verdict = verify(&plc, &mesh, exactly);

@@ -1,5 +1,6 @@
 //! What a run did: counts and seconds per phase, as plain documented structs. The only clock of the library is here.
 
+use crate::predicate::Steiner;
 use crate::recover::polygons::{Insertion, PolygonCounts};
 use serde::Serialize;
 use std::time::Instant;
@@ -54,12 +55,23 @@ pub struct Report {
     pub delaunay_tets: usize,
     /// Steiner points, all of them on segments.
     pub steiner_points: usize,
+    /// How Steiner points are represented.
+    pub steiner: Steiner,
+    /// Exact Steiner points whose coordinates are no doubles, so that output rounds them.
+    pub steiner_not_doubles: usize,
+    /// Polygons flat only to rounding that were divided into triangles, because Steiner points are exact.
+    pub triangulated_polygons: usize,
     /// What polygon insertion did.
     pub insertion_counts: PolygonCounts,
     /// Tetrahedra of the output.
     pub output_tets: usize,
     /// Subpolygons of the output (and hull faces, where the hull is kept).
     pub output_faces: usize,
+    /// Exact Steiner points that output does not round to the nearest doubles, so that tetrahedra stay positive.
+    pub moved_by_rounding: usize,
+    /// Tetrahedra that are positive with the exact Steiner points but not with the rounded ones, by index in the output,
+    /// counting from 0.
+    pub spoilt_by_rounding: Vec<usize>,
     /// Seconds per phase; a phase that was not reached has 0.
     pub seconds: Seconds,
 }

@@ -18,7 +18,7 @@ fn run(plc: &Plc, insertion: Insertion) -> Result<(ExportedMesh, PolygonCounts),
     let options = Options {
         insertion,
         keep_hull: true,
-        merge_coplanar: true,
+        ..Options::default()
     };
     let mut report = Report::default();
     let mesh = tetrahedralize(plc, &options, &mut report, &mut quiet)?;

@@ -60,6 +60,7 @@ fn run_all(plc: &Plc, keep_hull: bool, merge_coplanar: bool) -> Vec<Outcome> {
                 insertion,
                 keep_hull,
                 merge_coplanar,
+                ..Options::default()
             };
             let outcome = tetrahedralize(&plc, &options, &mut Report::default(), &mut quiet);
             if let Err(failure) = &outcome {

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use std::path::Path;
 use tempfile::TempDir;
 use tetflip::format::{MeshFileError, MeshLineError, UnwritableMesh, read_mesh, write_mesh};
-use tetflip::mesh::{ExportedEdge, ExportedFace, ExportedMesh, VertexId};
+use tetflip::mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, VertexId};
 
 /// Any finite double: every exponent, subnormal, both zeros, and short decimals.
 fn finite() -> impl Strategy<Value = f64> {
@@ -27,11 +27,14 @@ fn mesh() -> impl Strategy<Value = ExportedMesh> {
             let tets = prop::collection::vec((prop::array::uniform4(id.clone()), finite()), 0..20);
             let faces =
                 prop::collection::vec((prop::array::uniform3(id.clone()), any::<i32>()), 0..20);
-            let edges = prop::collection::vec((prop::array::uniform2(id), any::<i32>()), 0..20);
-            (tets, faces, edges).prop_map(move |(tets, faces, edges)| {
+            let edges =
+                prop::collection::vec((prop::array::uniform2(id.clone()), any::<i32>()), 0..20);
+            let exact = prop::collection::vec((id.clone(), [id.clone(), id], finite()), 0..5);
+            (tets, faces, edges, exact).prop_map(move |(tets, faces, edges, exact)| {
                 let (tets, regions): (Vec<_>, Vec<_>) = tets.into_iter().unzip();
                 let face = |(vertices, marker)| ExportedFace { vertices, marker };
                 let edge = |(vertices, marker)| ExportedEdge { vertices, marker };
+                let position = |(vertex, ends, t)| ExactPosition { vertex, ends, t };
                 ExportedMesh {
                     first_index,
                     vertices: vertices.clone(),
@@ -39,6 +42,7 @@ fn mesh() -> impl Strategy<Value = ExportedMesh> {
                     regions: if with_regions { regions } else { Vec::new() },
                     faces: faces.into_iter().map(face).collect(),
                     edges: edges.into_iter().map(edge).collect(),
+                    exact: exact.into_iter().map(position).collect(),
                 }
             })
         })
@@ -197,6 +201,11 @@ fn what_is_written() {
             marker: -7,
         }],
         edges: vec![],
+        exact: vec![ExactPosition {
+            vertex: VertexId(3),
+            ends: ids([0, 1]),
+            t: 0.25,
+        }],
     };
     let directory = TempDir::new().unwrap();
     let written = write_mesh(&directory.path().join("m.face"), &mesh).unwrap();
@@ -206,7 +215,8 @@ fn what_is_written() {
         .collect();
     let node = "4 3 0 0\n1 0 0.1 1e-5\n2 1 0 -2.5e300\n3 0 1 5e-324\n4 -0 100000 1\n";
     let ele = "2 4 1\n1 1 2 3 4 20\n2 4 3 2 1 -0.5\n";
-    assert_eq!(texts, [node, ele, "1 1\n1 1 2 3 -7\n", "0 1\n"]);
+    let face = "1 1\n1 1 2 3 -7\n";
+    assert_eq!(texts, [node, ele, face, "0 1\n", "1\n4 1 2 0.25\n"]);
 }
 
 /// The error of reading `files` with the good ones of TetGen for the rest.

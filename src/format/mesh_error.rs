@@ -141,4 +141,9 @@ pub enum UnwritableMesh {
     /// An edge names a vertex that is not there.
     #[error("edge {0} has a vertex that does not exist")]
     Edge(usize),
+    /// An exact position names a vertex that is not there, or is not finite.
+    #[error(
+        "exact position {0} has a vertex that does not exist, or a parameter that is not finite"
+    )]
+    ExactPosition(usize),
 }

@@ -13,8 +13,9 @@ use tempfile::NamedTempFile;
 /// Writes a mesh and returns the paths written.
 ///
 /// `NAME.node`, `NAME.ele`, `NAME.face` or `NAME.edge`, whichever is given, writes all four, for TetGen and its
-/// friends; every double is read back bit by bit as it was. `NAME.vtu` writes one file for ParaView, which
-/// [`read_mesh`] does not read.
+/// friends; every double is read back bit by bit as it was. If some vertices are exactly elsewhere, `NAME.steiner` says
+/// where; otherwise a file of that name is removed, since it would be about another mesh. `NAME.vtu` writes one file for
+/// ParaView, which [`read_mesh`] does not read.
 ///
 /// # Errors
 /// If the extension is another, if the mesh names vertices that it does not have or holds numbers that are not
@@ -23,7 +24,7 @@ use tempfile::NamedTempFile;
 pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, MeshFileError> {
     let format = Format::to_write(path)?;
     check(mesh)?;
-    let staged = match format {
+    let mut staged: Vec<Staged> = match format {
         Format::TetGen => [
             stage(path.with_extension("node"), |out| {
                 tetgen_mesh::write_node(out, mesh)
@@ -41,6 +42,19 @@ pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, Mesh
         .into(),
         Format::Vtu => vec![stage(path.to_path_buf(), |out| vtu::write(out, mesh))?],
     };
+    if let Format::TetGen = format {
+        let exact = path.with_extension("steiner");
+        if !mesh.exact.is_empty() {
+            staged.push(stage(exact, |out| tetgen_mesh::write_steiner(out, mesh))?);
+        } else if let Err(source) = std::fs::remove_file(&exact)
+            && source.kind() != io::ErrorKind::NotFound
+        {
+            return Err(MeshFileError::Io {
+                path: exact,
+                source,
+            });
+        }
+    }
     staged.into_iter().map(Staged::publish).collect()
 }
 
@@ -50,14 +64,15 @@ pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, Mesh
 /// If the extension names no format that can be written.
 pub fn mesh_paths(path: &Path) -> Result<Vec<PathBuf>, MeshFileError> {
     Ok(match Format::to_write(path)? {
-        Format::TetGen => ["node", "ele", "face", "edge"]
+        Format::TetGen => ["node", "ele", "face", "edge", "steiner"]
             .map(|extension| path.with_extension(extension))
             .into(),
         Format::Vtu => vec![path.to_path_buf()],
     })
 }
 
-/// Reads `NAME.node` and `NAME.ele`, and `NAME.face` and `NAME.edge` if they exist; `path` is any of the four.
+/// Reads `NAME.node` and `NAME.ele`, and `NAME.face`, `NAME.edge` and `NAME.steiner` if they exist; `path` is any of the first
+/// four.
 ///
 /// Files of TetGen are read as well as ours: comments, marks and attributes of vertices and the extra columns of `-nn`
 /// are skipped; of several attributes of a tetrahedron the last is the region's, where TetGen puts it. What the
@@ -134,6 +149,10 @@ fn check(mesh: &ExportedMesh) -> Result<(), UnwritableMesh> {
         first_bad(&mesh.tets, |t| t.iter().all(exists)).map(UnwritableMesh::Tet),
         first_bad(&mesh.faces, |f| f.vertices.iter().all(exists)).map(UnwritableMesh::Face),
         first_bad(&mesh.edges, |e| e.vertices.iter().all(exists)).map(UnwritableMesh::Edge),
+        first_bad(&mesh.exact, |p| {
+            exists(&p.vertex) && p.ends.iter().all(exists) && p.t.is_finite()
+        })
+        .map(UnwritableMesh::ExactPosition),
     ];
     bad.into_iter().flatten().next().map_or(Ok(()), Err)
 }

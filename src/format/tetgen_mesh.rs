@@ -8,6 +8,7 @@
 //! | `.ele` | count, 4, number of attributes | number, four vertices, attributes |
 //! | `.face` | count, whether marked | number, three vertices, mark |
 //! | `.edge` | count, whether marked | number, two vertices, mark |
+//! | `.steiner` | count | vertex, a, b, t: the vertex is exactly at a + t(b−a); our own, only if there are such vertices |
 //!
 //! Source: Si, *TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator*, ACM TOMS 41(2), 2015, and the files that
 //! TetGen 1.5.0 writes. The orientation of tetrahedra in its `.ele` files is ours, det[b−a, c−a, d−a] > 0, so
@@ -15,7 +16,7 @@
 
 use super::mesh_file::Shortest;
 use super::{MeshFileError, MeshLineError};
-use crate::mesh::{ExportedEdge, ExportedFace, ExportedMesh, VertexId};
+use crate::mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, VertexId};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -67,6 +68,17 @@ pub(super) fn write_edge(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result
     Ok(())
 }
 
+/// Writes the exact positions of a checked mesh.
+pub(super) fn write_steiner(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
+    writeln!(out, "{}", mesh.exact.len())?;
+    let name = |v: VertexId| u64::from(mesh.first_index) + u64::from(v.0);
+    for ExactPosition { vertex, ends, t } in &mesh.exact {
+        let [a, b] = ends.map(name);
+        writeln!(out, "{} {a} {b} {}", name(*vertex), Shortest(*t))?;
+    }
+    Ok(())
+}
+
 fn numbered<'a, T>(mesh: &ExportedMesh, items: &'a [T]) -> impl Iterator<Item = (u64, &'a T)> {
     (u64::from(mesh.first_index)..).zip(items)
 }
@@ -82,7 +94,7 @@ fn write_vertices(
     Ok(())
 }
 
-/// Reads the four files of the stem of `path`; the last two may be missing.
+/// Reads the files of the stem of `path`; `.face`, `.edge` and `.steiner` may be missing.
 pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
     let node = Source::open(path.with_extension("node"))?;
     let (first_index, vertices) = read_node(&node)?;
@@ -107,9 +119,14 @@ pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
         })?,
         None => Vec::new(),
     };
+    let exact = match Source::open_if_exists(path.with_extension("steiner"))? {
+        Some(source) => read_steiner(&source, numbering)?,
+        None => Vec::new(),
+    };
     Ok(ExportedMesh {
         first_index,
         vertices,
+        exact,
         tets,
         regions,
         faces,
@@ -169,6 +186,22 @@ fn read_ele(source: &Source, numbering: Numbering) -> Result<TetsAndRegions, Mes
         Ok(tet)
     })?;
     Ok((tets, regions))
+}
+
+fn read_steiner(
+    source: &Source,
+    numbering: Numbering,
+) -> Result<Vec<ExactPosition>, MeshFileError> {
+    let header = |line: &mut Line| Ok((line.number("the number of exact positions")?, ()));
+    source.table(header, |line, ()| {
+        let [vertex, a, b] = numbering.vertices(line)?;
+        let t = line.finite("t")?;
+        Ok(ExactPosition {
+            vertex,
+            ends: [a, b],
+            t,
+        })
+    })
 }
 
 /// A `.face` or `.edge` file, with the columns after the mark ignored.

@@ -133,6 +133,7 @@ mod tests {
                 marker: -4,
             }],
             edges: vec![],
+            exact: vec![],
         };
         let mut bytes = Vec::new();
         write(&mut bytes, &mesh).unwrap();

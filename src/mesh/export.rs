@@ -10,7 +10,9 @@ pub struct ExportedMesh {
     pub first_index: u32,
     /// Coordinates. The vertices of the input come first, in the order of the input, then Steiner points.
     pub vertices: Vec<[f64; 3]>,
-    /// Positively oriented tetrahedra: det[b−a, c−a, d−a] > 0.
+    /// The vertices that are exactly elsewhere: their coordinates are rounded.
+    pub exact: Vec<ExactPosition>,
+    /// Positively oriented tetrahedra: det[b−a, c−a, d−a] > 0, for the exact positions.
     pub tets: Vec<[VertexId; 4]>,
     /// One region attribute per tetrahedron, or empty if the input has no regions.
     pub regions: Vec<f64>,
@@ -18,6 +20,17 @@ pub struct ExportedMesh {
     pub faces: Vec<ExportedFace>,
     /// The edges that lie on input segments.
     pub edges: Vec<ExportedEdge>,
+}
+
+/// The exact position a + t(b−a) of a Steiner point whose coordinates are no doubles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExactPosition {
+    /// The Steiner point.
+    pub vertex: VertexId,
+    /// The ends a, b of its segment, vertices whose coordinates are exact.
+    pub ends: [VertexId; 2],
+    /// t, strictly between 0 and 1.
+    pub t: f64,
 }
 
 /// A triangular face with the marker of its input facet.

@@ -6,7 +6,7 @@ mod ids;
 mod incidence;
 mod topology;
 
-pub use export::{ExportedEdge, ExportedFace, ExportedMesh};
+pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;
 pub use topology::{FACET, NEXT, TetMesh, TopologyError};

@@ -49,6 +49,7 @@ impl Complex {
         Ok(Complex {
             representative,
             segments,
+            diagonals: 0,
             polygons,
         })
     }

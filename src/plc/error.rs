@@ -181,6 +181,12 @@ pub enum PlcError {
         /// Its distance, rounded.
         distance: f64,
     },
+    /// The facet is flat only to rounding, and its projection is too close to degenerate to be divided into triangles.
+    #[error("{facet} is not exactly planar and cannot be divided into triangles")]
+    NotTriangulated {
+        /// The facet.
+        facet: FacetName,
+    },
     /// Two edges of a facet cross.
     #[error("edges {} and {} of {facet} cross", edges[0], edges[1])]
     EdgesCross {

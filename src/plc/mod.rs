@@ -9,6 +9,7 @@ mod frame;
 mod merge;
 mod plane;
 mod subdivision;
+mod triangulate;
 mod types;
 
 pub use complex::{Complex, Polygon};

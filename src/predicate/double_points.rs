@@ -1,4 +1,9 @@
-//! Points with double coordinates, and their filtered exact predicates.
+//! Points with double coordinates, and Steiner points on segments with rounded or exact ones; filtered exact predicates.
+//!
+//! A Steiner point whose exact coordinates are no doubles ([`Steiner::Exact`]) has NaN in their place, so that the first
+//! stage below, which nearly all calls end in, says "don't know" without being asked: models without such points pay
+//! nothing for them. Their predicates go through stage 1 with the rounding of the coordinates in the error bound, and end
+//! in stage 3; all zeros do.
 //!
 //! Each sign goes through stages until one is sure:
 //!
@@ -17,21 +22,26 @@
 //!    sum of at most 2^12 products of five differences below 2^191, stay below 2^(5·191+12) < 2^1023;
 //! 3. the formula over [`Dyadic`](crate::number::Dyadic), for every finite double.
 
-use super::{PointStore, formula};
+use super::segment_point::{SegmentPoint, between};
+use super::{PointStore, Steiner, formula};
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use robust::Coord3D;
 
-/// Points with finite double coordinates.
+/// Points with finite double coordinates; Steiner points may have exact ones that are no doubles.
 #[derive(Clone, Debug, Default)]
 pub struct DoublePoints {
+    /// [NaN, NaN, i] stands for `segment_points[i]`.
     points: Vec<[f64; 3]>,
+    /// In order of vertex.
+    segment_points: Vec<SegmentPoint>,
+    steiner: Steiner,
     /// The identities of reordered points; `None` where each has its index.
     identities: Option<Vec<u32>>,
     range: Range,
 }
 
-/// What is known of all coordinates: the grid that they lie on and their largest magnitude.
+/// What is known of all coordinates that are doubles: the grid that they lie on and their largest magnitude.
 #[derive(Clone, Copy, Debug)]
 struct Range {
     /// All coordinates are multiples of 2^grid.
@@ -107,16 +117,88 @@ impl DoublePoints {
         }
         DoublePoints {
             points,
+            segment_points: Vec::new(),
+            steiner: Steiner::Rounded,
             identities: None,
             range,
         }
     }
 
-    /// All points, in order of id.
+    /// All points, in order of id; NaN for those that are no doubles.
     pub fn as_slice(&self) -> &[[f64; 3]] {
         &self.points
     }
 
+    /// The same points, which represent Steiner points in the given way from now on.
+    #[must_use]
+    pub fn with_steiner(self, steiner: Steiner) -> DoublePoints {
+        DoublePoints { steiner, ..self }
+    }
+
+    /// Whether the coordinates of a point are doubles.
+    pub fn is_double(&self, v: VertexId) -> bool {
+        !self.points[v.index()][0].is_nan()
+    }
+
+    /// How many points have coordinates that are no doubles.
+    pub fn no_doubles(&self) -> usize {
+        self.segment_points.len()
+    }
+
+    /// A point whose coordinates are no doubles.
+    fn segment_point(&self, v: VertexId) -> Option<&SegmentPoint> {
+        let [x, _, i] = self.points[v.index()];
+        x.is_nan().then(|| &self.segment_points[i as usize])
+    }
+
+    /// Whether one of the points has coordinates that are no doubles.
+    fn any_segment_point(&self, v: &[VertexId]) -> bool {
+        !self.segment_points.is_empty() && v.iter().any(|&v| !self.is_double(v))
+    }
+
+    /// The coordinates with the bound of their rounding.
+    fn approx(&self, v: VertexId) -> Vec3<Approx> {
+        match self.segment_point(v) {
+            Some(p) => p.approx.clone(),
+            None => self.at(v),
+        }
+    }
+
+    fn exact(&self, v: VertexId) -> Vec3<Dyadic> {
+        match self.segment_point(v) {
+            Some(p) => p.exact.clone(),
+            None => self.at(v),
+        }
+    }
+
+    fn push_unchecked(&mut self, p: [f64; 3]) -> VertexId {
+        let v = VertexId::new(self.points.len());
+        self.points.push(p);
+        if let Some(identities) = &mut self.identities {
+            identities.push(v.0);
+        }
+        v
+    }
+
+    /// Stages 1 and 3 where not all coordinates are doubles.
+    #[cold]
+    fn orient3d_of_any(&self, v: [VertexId; 4]) -> Sign {
+        let p = v.map(|v| self.approx(v));
+        let filtered = formula::orient3d(p.each_ref()).sign();
+        filtered
+            .unwrap_or_else(|| formula::orient3d(v.map(|v| self.exact(v)).each_ref()).exact_sign())
+    }
+
+    /// Stages 1 and 3 where not all coordinates are doubles.
+    #[cold]
+    fn insphere_of_any(&self, v: [VertexId; 5]) -> Sign {
+        let p = v.map(|v| self.approx(v));
+        let filtered = formula::insphere(p.each_ref()).sign();
+        filtered
+            .unwrap_or_else(|| formula::insphere(v.map(|v| self.exact(v)).each_ref()).exact_sign())
+    }
+
+    /// The coordinates of a point whose coordinates are doubles, NaN for others.
     #[inline]
     fn at<N: Number>(&self, v: VertexId) -> Vec3<N> {
         Vec3::from_f64(self.points[v.index()])
@@ -130,6 +212,9 @@ impl DoublePoints {
 
     /// Stages 1 and 2.
     fn orient3d_filtered(&self, v: [VertexId; 4]) -> Sign {
+        if self.any_segment_point(&v) {
+            return self.orient3d_of_any(v);
+        }
         let [a, b, c, d] = v;
         let [a, b, c, d]: [Vec3<Approx>; 4] = [self.at(a), self.at(b), self.at(c), self.at(d)];
         let filtered = formula::orient3d([&a, &b, &c, &d]).sign_on_grid(self.range.quantum3);
@@ -138,6 +223,9 @@ impl DoublePoints {
 
     /// Stages 1 and 2.
     fn insphere_filtered(&self, v: [VertexId; 5]) -> Sign {
+        if self.any_segment_point(&v) {
+            return self.insphere_of_any(v);
+        }
         let [a, b, c, d, e] = v;
         let [a, b, c, d, e]: [Vec3<Approx>; 5] =
             [self.at(a), self.at(b), self.at(c), self.at(d), self.at(e)];
@@ -175,16 +263,22 @@ impl PointStore for DoublePoints {
 
     #[inline]
     fn rounded(&self, v: VertexId) -> [f64; 3] {
-        self.points[v.index()]
+        self.segment_point(v)
+            .map_or(self.points[v.index()], |p| p.rounded)
     }
 
     fn coordinates<N: Number>(&self, v: VertexId) -> Vec3<N> {
-        self.at(v)
+        match self.segment_point(v) {
+            Some(p) => between(p.ends, p.t),
+            None => self.at(v),
+        }
     }
 
     fn reordered(&self, order: &[VertexId]) -> DoublePoints {
         DoublePoints {
             points: order.iter().map(|v| self.points[v.index()]).collect(),
+            segment_points: self.segment_points.clone(),
+            steiner: self.steiner,
             identities: Some(order.iter().map(|&v| self.identity(v)).collect()),
             range: self.range,
         }
@@ -208,32 +302,35 @@ impl PointStore for DoublePoints {
             assert!(x.is_finite(), "coordinates are finite");
             self.range.include(x);
         }
-        let v = VertexId::new(self.points.len());
-        self.points.push(p);
-        if let Some(identities) = &mut self.identities {
-            identities.push(v.0);
-        }
-        v
+        self.push_unchecked(p)
     }
 
     fn truncate(&mut self, n: usize) {
         self.points.truncate(n);
+        if !self.segment_points.is_empty() {
+            let last = self.points.iter().rev().find(|p| p[0].is_nan());
+            let left = last.map_or(0, |&[_, _, i]| i as usize + 1);
+            self.segment_points.truncate(left);
+        }
         if let Some(identities) = &mut self.identities {
             identities.truncate(n);
         }
     }
 
-    /// Rounds each coordinate of p + t(q−p) to a double, so the point is off the line by about half an ulp, or not at
-    /// all where the result is representable.
+    /// [`Steiner::Rounded`] rounds each coordinate of p + t(q−p) to a double, so that the point is off the line by about
+    /// half an ulp, or not at all where the result is representable. p and q must have double coordinates.
     fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: f64) -> VertexId {
-        let (p, q) = (self.points[p.index()], self.points[q.index()]);
-        let t = Dyadic::from_f64(t);
-        let x = [0, 1, 2].map(|i| {
-            let (a, b) = (Dyadic::from_f64(p[i]), Dyadic::from_f64(q[i]));
-            let exact = (b - &a) * &t + &a;
-            exact.to_f64()
-        });
-        self.push(x)
+        let ends = [p, q].map(|v| self.points[v.index()]);
+        let point = match SegmentPoint::new(ends, t) {
+            Err(doubles) => return self.push(doubles),
+            Ok(point) => point,
+        };
+        if self.steiner == Steiner::Rounded {
+            return self.push(point.rounded);
+        }
+        let place = self.segment_points.len() as f64;
+        self.segment_points.push(point);
+        self.push_unchecked([f64::NAN, f64::NAN, place])
     }
 
     #[inline]
@@ -344,6 +441,32 @@ mod tests {
             let s = formula::insphere(exact.each_ref()).exact_sign();
             prop_assert_eq!(store.insphere_unperturbed(v), s);
             prop_assert_eq!(store.insphere_exact(v), s);
+        }
+
+        /// The same with exact points on segments, also for points of one line or plane.
+        #[test]
+        fn exact_steiner_points_agree_with_dyadics(p in family(), q in family(), t in prop::collection::vec(1u32..64, 5)) {
+            let mut store = DoublePoints::new([p, q].concat()).with_steiner(Steiner::Exact);
+            let end = |i: u32| VertexId(i);
+            let mut steiner: Vec<VertexId> = (0..5u32)
+                .map(|i| store.push_on_segment(end(i), end(5 + i), f64::from(t[i as usize]) / 64.0))
+                .collect();
+            steiner.push(store.push_on_segment(end(0), end(5), 0.3));
+            steiner.extend((0..10).map(end));
+            let exact: Vec<Vec3<Dyadic>> = (0..store.len()).map(|v| store.coordinates(VertexId::new(v))).collect();
+            for start in 0..steiner.len() - 4 {
+                let v: [VertexId; 5] = std::array::from_fn(|i| steiner[start + i]);
+                let [a, b, c, d, e] = v.map(|v| &exact[v.index()]);
+                prop_assert_eq!(store.orient3d([v[0], v[1], v[2], v[3]]), formula::orient3d([a, b, c, d]).exact_sign());
+                prop_assert_eq!(store.insphere_unperturbed(v), formula::insphere([a, b, c, d, e]).exact_sign());
+            }
+            for v in [steiner[0], steiner[5]] {
+                prop_assert!(store.collinear([end(0), end(5), v]));
+                prop_assert!(store.orient3d([end(0), end(5), end(1), v]).is_zero());
+            }
+            let n = store.no_doubles();
+            store.truncate(11);
+            prop_assert_eq!(store.no_doubles(), n.min(usize::from(!store.is_double(VertexId(10)))));
         }
 
         /// Exchanging two of the five points changes the perturbed sign; it is zero only for five coplanar points.

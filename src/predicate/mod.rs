@@ -7,9 +7,11 @@ mod double_points;
 pub mod formula;
 mod naive;
 mod perturbation;
+mod segment_point;
 mod store;
 
 pub use double_points::DoublePoints;
 pub use naive::NaivePoints;
 pub use perturbation::perturbed_sign;
+pub use segment_point::Steiner;
 pub use store::PointStore;

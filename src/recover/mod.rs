@@ -13,6 +13,7 @@ pub mod method;
 pub mod missing;
 pub mod polygons;
 pub mod region;
+pub mod rounding;
 pub mod scout;
 pub mod scratch;
 pub mod segments;

@@ -65,6 +65,13 @@ impl Subsegments {
         self.steiner.get(i).map(|&(s, _)| s)
     }
 
+    /// The ends of the segment that a Steiner point lies on and its parameter there; `None` for vertices of the input.
+    pub fn place_of_steiner(&self, v: VertexId) -> Option<([VertexId; 2], f64)> {
+        let i = v.index().checked_sub(self.first_steiner)?;
+        let &(s, t) = self.steiner.get(i)?;
+        Some((self.ends[s as usize], t))
+    }
+
     /// The vertices of segment `s` from its first end to its second.
     pub fn chain(&self, s: u32) -> impl DoubleEndedIterator<Item = VertexId> + '_ {
         self.chains[s as usize].iter().map(|&(_, v)| v)

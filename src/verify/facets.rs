@@ -13,13 +13,15 @@
 //! The boundary makes the sum of *signed* areas equal to that of the group, so that the second condition holds iff no
 //! face of S is turned over: S is projected one to one onto the group. In a flat facet without rounded points all
 //! candidates together are the only choice. Nearly flat vertices permit thin tetrahedra between candidates ("shims": all four
-//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh, all candidates, those
-//! above all shims, those below all shims.
+//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh, all candidates, a part
+//! of them that is searched for ([`super::cover`]).
 //!
 //! A part of a facet (a cell of [`Area`]) is outside the domain, and exempt, if no candidate lies in it and a step from
 //! one of its convex corners into it enters no tetrahedron. The facets of a PLC intersect in common segments only, so that
 //! a part is inside or outside as a whole. Exempt parts go to [`super::domain`], as they must not enclose anything.
 
+use super::cover::{self, Need};
+use super::delaunay::is_locally_delaunay;
 use super::planar::{Area, distinct};
 use super::segments::{Fate, axes_of};
 use super::tables::sorted2;
@@ -174,18 +176,15 @@ impl<'a> Group<'a> {
             cover.facet_of.entry(f).or_insert(self.facets[0]);
         }
         self.exempt(&candidates, cover, findings);
-        let choices = [
-            candidates
-                .iter()
-                .copied()
-                .filter(|f| listed.contains(f))
-                .collect(),
-            candidates.clone(),
-            self.beyond_shims(&candidates, true),
-            self.beyond_shims(&candidates, false),
+        let listed = candidates.iter().copied().filter(|f| listed.contains(f));
+        let choices: [&dyn Fn() -> Vec<usize>; 3] = [
+            &|| listed.clone().collect(),
+            &|| candidates.clone(),
+            &|| self.chosen(&candidates),
         ];
         let mut first_misfit = None;
         for (i, choice) in choices.into_iter().enumerate() {
+            let choice = choice();
             match self.misfit(&choice) {
                 None => {
                     findings.counts.facets += self.facets.len();
@@ -257,13 +256,23 @@ impl<'a> Group<'a> {
                 let Some([a, b, c]) = facet.frame else {
                     return false;
                 };
-                let tolerance = self.case.tolerance + facet.bulge;
+                // The bulge is rounded, and so is what is computed with it.
+                let tolerance = match facet.flat {
+                    true => self.case.tolerance,
+                    false => facet.bulge + self.case.tolerance.max(self.case.rounding),
+                };
                 self.case.points.orient([a, b, c, v]).is_zero()
                     || (!self.case.input.is_site(v)
                         && self.case.points.near_plane([a, b, c], v, tolerance))
             })
         };
-        self.vertices.contains(&v) || *memory.entry(v).or_insert_with(on_plane)
+        // A vertex on the plane but beyond the border: a face with it may lie mostly in the facet, nearly coplanar with the
+        // facet's neighbour.
+        let inside = || {
+            let mut areas = self.areas.iter();
+            areas.any(|area| area.is_kept(area.cell_at(&[v])))
+        };
+        self.vertices.contains(&v) || *memory.entry(v).or_insert_with(|| on_plane() && inside())
     }
 
     /// Takes the parts outside the domain out of the areas. Parts at merged edges are outside together or not at all.
@@ -313,37 +322,47 @@ impl<'a> Group<'a> {
         }
     }
 
-    /// The candidates that have no shim above (or below) them.
-    fn beyond_shims(&self, candidates: &[usize], above: bool) -> Vec<usize> {
+    /// A part of the candidates that covers the group, if one is found: with those that need to be on a facet, because
+    /// they are not locally Delaunay, if possible.
+    fn chosen(&self, candidates: &[usize]) -> Vec<usize> {
         let tables = &self.case.tables;
-        let mut faces_of: FxHashMap<u32, u8> = FxHashMap::default();
-        let sides = |f: usize| {
-            tables.faces[f]
-                .sides
-                .into_iter()
-                .take(tables.faces[f].tets as usize)
-        };
-        for side in candidates.iter().flat_map(|&f| sides(f)) {
-            *faces_of.entry(side.0).or_default() += 1;
-        }
-        let is_above = |side| {
-            self.case
+        // A face that stands upright is a side of a shim; it covers nothing.
+        let lies = |&f: &usize| {
+            !self
+                .case
                 .points
-                .orient2d(self.axes, tables.inward(side))
-                .is_positive()
+                .orient2d(self.axes, tables.faces[f].key)
+                .is_zero()
         };
-        let blocked =
-            |&f: &usize| sides(f).any(|side| faces_of[&side.0] == 4 && is_above(side) == above);
-        candidates.iter().copied().filter(|f| !blocked(f)).collect()
+        let lying: Vec<usize> = candidates.iter().copied().filter(lies).collect();
+        let keys: Vec<[VertexId; 3]> = lying.iter().map(|&f| tables.faces[f].key).collect();
+        let wanted: Vec<bool> = lying
+            .iter()
+            .map(|&f| !is_locally_delaunay(self.case, f))
+            .collect();
+        let need = self.expected();
+        let need = need.into_iter().map(|(edge, faces)| match faces {
+            1 => (edge, Need::One),
+            _ => (edge, Need::TwoOrNone),
+        });
+        let in_mesh = |cover: &[usize]| cover.iter().map(|&i| lying[i]).collect::<Vec<_>>();
+        let accept = |cover: &[usize]| self.misfit(&in_mesh(cover)).is_none();
+        let cover = cover::find(&keys, &need.collect(), &wanted, &accept);
+        cover.map_or_else(|| lying.clone(), |cover| in_mesh(&cover))
+    }
+
+    /// How many faces each edge of the boundary has; an edge between two facets of the group is in the boundary of both.
+    fn expected(&self) -> BTreeMap<[VertexId; 2], usize> {
+        let mut expected: BTreeMap<[VertexId; 2], usize> = BTreeMap::new();
+        for edge in self.areas.iter().flat_map(Area::boundary) {
+            *expected.entry(sorted2(edge)).or_insert(0) += 1;
+        }
+        expected
     }
 
     /// Why the faces do not cover the group, if they do not.
     fn misfit(&self, faces: &[usize]) -> Option<Misfit> {
-        let mut expected: BTreeMap<[VertexId; 2], usize> = BTreeMap::new();
-        for edge in self.areas.iter().flat_map(Area::boundary) {
-            // An edge between two facets of the group is in the boundary of both.
-            *expected.entry(sorted2(edge)).or_insert(0) += 1;
-        }
+        let expected = self.expected();
         let mut found: BTreeMap<[VertexId; 2], usize> = expected.keys().map(|&e| (e, 0)).collect();
         for [a, b, c] in faces.iter().map(|&f| self.case.tables.faces[f].key) {
             for edge in [[a, b], [b, c], [a, c]] {

@@ -3,7 +3,8 @@
 
 use super::points::{Points, cross, dot, minus};
 use super::tables::sorted2;
-use crate::mesh::VertexId;
+use crate::mesh::{ExportedMesh, VertexId};
+use crate::number::{Dyadic, Vec3};
 use crate::plc::Plc;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
@@ -56,13 +57,18 @@ pub(super) fn place_key(p: [f64; 3]) -> [u64; 3] {
 }
 
 impl Input {
-    /// `used[v]` says whether mesh vertex v is in a tetrahedron. `coordinates` holds those of the mesh vertices, and gets
-    /// the other points of the input.
-    pub(super) fn new(plc: &Plc, used: &[bool], coordinates: Vec<[f64; 3]>) -> (Input, Points) {
-        let mut coordinates = coordinates;
+    /// `used[v]` says whether mesh vertex v is in a tetrahedron. `exact` are those that are not where their doubles say.
+    pub(super) fn new(
+        plc: &Plc,
+        used: &[bool],
+        mesh: &ExportedMesh,
+        exact: FxHashMap<VertexId, Vec3<Dyadic>>,
+    ) -> (Input, Points) {
+        // The vertices of the mesh, then the other points of the input.
+        let mut coordinates = mesh.vertices.clone();
         let mut at: FxHashMap<[u64; 3], VertexId> = FxHashMap::default();
         for (v, &p) in coordinates.iter().enumerate() {
-            if used[v] {
+            if used[v] && !exact.contains_key(&VertexId::new(v)) {
                 at.entry(place_key(p)).or_insert(VertexId::new(v));
             }
         }
@@ -82,7 +88,7 @@ impl Input {
             .iter()
             .map(|f| f.holes.iter().map(|&p| add(p)).collect())
             .collect();
-        let points = Points::new(coordinates);
+        let points = Points::new(coordinates).with_exact(exact);
         let mut is_site = vec![
             false;
             used.len()

@@ -7,6 +7,7 @@
 //! | file | claim |
 //! |---|---|
 //! | `structure` | indices in range, coordinates finite |
+//! | `positions` | vertices with exact positions on a segment have the coordinates of those, rounded |
 //! | `orientation` | every tetrahedron is positive |
 //! | `adjacency` | faces have one tetrahedron, or one on each side; no two tetrahedra overlap |
 //! | `vertices` | every input vertex in the domain is in the mesh |
@@ -24,6 +25,7 @@
 //! is exact. The verdict counts how often this was needed. With tolerance 0 nothing is forgiven.
 
 mod adjacency;
+mod cover;
 mod delaunay;
 mod domain;
 mod facets;
@@ -34,6 +36,7 @@ mod locate;
 mod orientation;
 mod planar;
 mod points;
+mod positions;
 mod regions;
 mod segments;
 mod shells;
@@ -104,6 +107,8 @@ struct Case<'a> {
     locator: Locator<'a>,
     /// [`VerifyOptions::tolerance`] as a distance.
     tolerance: f64,
+    /// The default tolerance as a distance: for facets of the input that are flat only to rounding themselves.
+    rounding: f64,
 }
 
 impl Case<'_> {
@@ -137,7 +142,11 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
     for v in mesh.tets.iter().flatten() {
         used[v.index()] = true;
     }
-    let (input, points) = Input::new(plc, &used, mesh.vertices.clone());
+    let exact = positions::check(mesh, &mut findings);
+    if !findings.is_empty() {
+        return findings.verdict();
+    }
+    let (input, points) = Input::new(plc, &used, mesh, exact);
     let mut tets = mesh.tets.clone();
     orientation::check(&points, &mut tets, &mut findings);
     let tables = Tables::new(tets, mesh.vertices.len());
@@ -150,6 +159,7 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         input: &input,
         locator: Locator::new(&points, &tables),
         tolerance: options.tolerance * ulp(points.largest()),
+        rounding: VerifyOptions::default().tolerance * ulp(points.largest()),
     };
     listed::check(&case, &mut findings);
     adjacency::check(&case, &mut findings);

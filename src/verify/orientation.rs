@@ -9,6 +9,13 @@ use crate::number::Sign;
 /// Checks the signs, and turns the tetrahedra of a mesh with the other convention.
 pub(super) fn check(points: &Points, tets: &mut [[VertexId; 4]], findings: &mut Findings) {
     let signs: Vec<Sign> = tets.iter().map(|&t| points.orient(t)).collect();
+    let spoilt =
+        |t: &[VertexId; 4], sign: Sign| points.orient_rounded(*t).is_some_and(|s| s != sign);
+    findings.counts.spoilt_by_rounding = tets
+        .iter()
+        .zip(&signs)
+        .filter(|(t, s)| spoilt(t, **s))
+        .count();
     findings.counts.tets = tets.len();
     if !signs.contains(&Sign::Positive) && signs.contains(&Sign::Negative) {
         findings.counts.turned = true;

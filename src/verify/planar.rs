@@ -247,10 +247,9 @@ impl<'a> Area<'a> {
             .filter(|&c| self.cell_of[c] == cell)
             .find(|&c| self.positive.iter().any(|p| p.contains(&c)))?;
         let cycle = &self.cycles[cycle];
-        let key = |v: VertexId| self.axes.map(|i| self.points.at(v)[i]);
         let order = |v: VertexId, w: VertexId| {
-            let (p, q) = (key(v), key(w));
-            p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
+            let [x, y] = self.axes.map(|i| self.points.order(i, v, w));
+            x.then(y)
         };
         let corners = (0..cycle.len()).map(|i| {
             let [a, b] = self.half_edges[cycle[i]];
@@ -292,11 +291,9 @@ fn counterclockwise(
     p: VertexId,
     q: VertexId,
 ) -> Ordering {
-    let at = |w: VertexId| axes.map(|i| points.at(w)[i]);
-    let o = at(v);
     let is_lower = |w: VertexId| {
-        let x = at(w);
-        x[1] < o[1] || (x[1] == o[1] && x[0] < o[0])
+        let [x, y] = axes.map(|i| points.order(i, w, v));
+        y.then(x).is_lt()
     };
     is_lower(p)
         .cmp(&is_lower(q))

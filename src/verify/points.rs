@@ -21,6 +21,8 @@
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::formula;
+use rustc_hash::FxHashMap;
+use std::cmp::Ordering;
 
 /// u = 2⁻⁵³.
 const HALF_ULP: f64 = f64::EPSILON / 2.0;
@@ -32,6 +34,8 @@ const SQUARES: std::ops::Range<f64> = 1e-90..1e90;
 /// are no mesh vertices. A [`VertexId`] in this module names any of them.
 pub(super) struct Points {
     coordinates: Vec<[f64; 3]>,
+    /// The points whose coordinates are no doubles; `coordinates` has them rounded.
+    exact: FxHashMap<VertexId, Vec3<Dyadic>>,
     shortcut: bool,
     underflow: f64,
     largest: f64,
@@ -65,10 +69,16 @@ impl Points {
             .fold(0.0f64, |m, x| m.max(x.abs()));
         Points {
             coordinates,
+            exact: FxHashMap::default(),
             shortcut: largest <= 2f64.powi(100),
             underflow: 2f64.powi(-500),
             largest,
         }
+    }
+
+    /// The same points, some of which are exactly elsewhere.
+    pub(super) fn with_exact(self, exact: FxHashMap<VertexId, Vec3<Dyadic>>) -> Points {
+        Points { exact, ..self }
     }
 
     /// The largest absolute value of a coordinate.
@@ -76,12 +86,27 @@ impl Points {
         self.largest
     }
 
+    /// The coordinates, rounded if they are no doubles.
     pub(super) fn at(&self, v: VertexId) -> [f64; 3] {
         self.coordinates[v.index()]
     }
 
+    /// The coordinates; NaN if they are no doubles, so that no shortcut is certain of anything.
+    fn double(&self, v: VertexId) -> [f64; 3] {
+        if !self.exact.is_empty() && self.exact.contains_key(&v) {
+            return [f64::NAN; 3];
+        }
+        self.at(v)
+    }
+
     pub(super) fn exact(&self, v: VertexId) -> Vec3<Dyadic> {
-        Vec3::from_f64(self.at(v))
+        let exact = self.exact.get(&v).cloned();
+        exact.unwrap_or_else(|| Vec3::from_f64(self.at(v)))
+    }
+
+    /// Whether two points are exactly at the same place.
+    pub(super) fn coincide(&self, v: VertexId, w: VertexId) -> bool {
+        self.exact(v) == self.exact(w)
     }
 
     fn certain(&self, value: f64, permanent: f64, factors: u32) -> Option<Sign> {
@@ -105,17 +130,26 @@ impl Points {
 
     /// The sign of det[b−a, c−a, d−a].
     pub(super) fn orient(&self, [a, b, c, d]: [VertexId; 4]) -> Sign {
-        let o = self.at(a);
-        let (value, permanent) = det3([b, c, d].map(|v| minus(self.at(v), o)));
+        let o = self.double(a);
+        let (value, permanent) = det3([b, c, d].map(|v| minus(self.double(v), o)));
         self.certain(value, permanent, 8)
             .unwrap_or_else(|| self.volume([a, b, c, d]).exact_sign())
+    }
+
+    /// The same with the rounded coordinates, if any of the points has others.
+    pub(super) fn orient_rounded(&self, t: [VertexId; 4]) -> Option<Sign> {
+        if self.exact.is_empty() || !t.iter().any(|v| self.exact.contains_key(v)) {
+            return None;
+        }
+        let p = t.map(|v| Vec3::from_f64(self.at(v)));
+        Some(formula::orient3d::<Dyadic>(p.each_ref()).exact_sign())
     }
 
     /// Positive iff e is inside the circumsphere of the positive abcd.
     pub(super) fn insphere(&self, five: [VertexId; 5]) -> Sign {
         let [a, b, c, d, e] = five;
-        let o = self.at(e);
-        let q = [a, b, c, d].map(|v| minus(self.at(v), o));
+        let o = self.double(e);
+        let q = [a, b, c, d].map(|v| minus(self.double(v), o));
         let lift = q.map(|x| dot(x, x));
         // As in the formula: the coefficients −O(e,b,c,d), O(e,a,c,d), −O(e,a,b,d), O(e,a,b,c), negated.
         let minors = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]].map(|i| det3(i.map(|k| q[k])));
@@ -134,9 +168,9 @@ impl Points {
         if let [v] = q {
             return self.orient([a, b, c, *v]);
         }
-        let o = self.at(a);
+        let o = self.double(a);
         let (value, permanent) = q.iter().fold((0.0, 0.0), |(value, permanent), &v| {
-            let (x, p) = det3([b, c, v].map(|w| minus(self.at(w), o)));
+            let (x, p) = det3([b, c, v].map(|w| minus(self.double(w), o)));
             (value + x, permanent + p)
         });
         self.certain(value, permanent, 8 + q.len() as u32)
@@ -145,7 +179,10 @@ impl Points {
 
     /// Twice the signed area of abc in the plane of the two axes, exactly.
     pub(super) fn area(&self, axes: [usize; 2], [a, b, c]: [VertexId; 3]) -> Dyadic {
-        let [a, b, c] = [a, b, c].map(|v| axes.map(|i| Dyadic::from_f64(self.at(v)[i])));
+        let [a, b, c] = [a, b, c].map(|v| {
+            let p = self.exact(v);
+            axes.map(|i| p.0[i].clone())
+        });
         let d = |p: &[Dyadic; 2], i: usize| p[i].clone() - &a[i];
         d(&b, 0) * &d(&c, 1) - &(d(&b, 1) * &d(&c, 0))
     }
@@ -157,7 +194,7 @@ impl Points {
 
     /// The side of the line ab on which the centroid of the points q lies.
     pub(super) fn side2d(&self, axes: [usize; 2], [a, b]: [VertexId; 2], q: &[VertexId]) -> Sign {
-        let at = |v: VertexId| axes.map(|i| self.at(v)[i]);
+        let at = |v: VertexId| axes.map(|i| self.double(v)[i]);
         let (o, p) = (at(a), at(b));
         let (value, permanent) = q.iter().fold((0.0, 0.0), |(value, permanent), &v| {
             let r = at(v);
@@ -174,17 +211,26 @@ impl Points {
 
     /// How a coordinate of the centroid of the points q compares with that of v.
     pub(super) fn compare(&self, axis: usize, q: &[VertexId], v: VertexId) -> Sign {
-        let x = self.at(v)[axis];
-        let mut signs = q
-            .iter()
-            .map(|&w| Sign::of_f64(self.at(w)[axis] - x).expect("coordinates are finite"));
-        let first = signs.next().unwrap_or(Sign::Zero);
-        if signs.all(|s| s == first) {
+        let x = self.double(v)[axis];
+        // NaN where a coordinate is no double.
+        let mut signs = q.iter().map(|&w| Sign::of_f64(self.double(w)[axis] - x));
+        let first = signs.next().unwrap_or(Some(Sign::Zero));
+        if let Some(first) = first
+            && signs.all(|s| s == Some(first))
+        {
             return first;
         }
-        total(q, |w| {
-            Dyadic::from_f64(self.at(w)[axis]) - &Dyadic::from_f64(x)
-        })
+        let x = self.exact(v);
+        total(q, |w| self.exact(w).0[axis].clone() - &x.0[axis])
+    }
+
+    /// The order of two points by a coordinate.
+    pub(super) fn order(&self, axis: usize, v: VertexId, w: VertexId) -> Ordering {
+        match self.compare(axis, &[v], w) {
+            Sign::Negative => Ordering::Less,
+            Sign::Zero => Ordering::Equal,
+            Sign::Positive => Ordering::Greater,
+        }
     }
 
     /// Whether three points are exactly collinear.
@@ -196,7 +242,7 @@ impl Points {
 
     /// Whether v is within `tolerance` of the line ab: |(b−a)×(v−a)|² ≤ tolerance²·|b−a|², exactly.
     pub(super) fn near_line(&self, [a, b]: [VertexId; 2], v: VertexId, tolerance: f64) -> bool {
-        let (pa, pb, pv) = (self.at(a), self.at(b), self.at(v));
+        let (pa, pb, pv) = (self.double(a), self.double(b), self.double(v));
         // Far away beyond all doubt (the rounding error of this distance is a few ulp of the coordinates).
         let (along, away) = (minus(pb, pa), minus(pv, pa));
         let moment = cross(along, away);
@@ -217,7 +263,12 @@ impl Points {
     /// Whether v is within `tolerance` of the plane abc: det² ≤ tolerance²·|normal|², exactly.
     pub(super) fn near_plane(&self, [a, b, c]: [VertexId; 3], v: VertexId, tolerance: f64) -> bool {
         // Far away beyond all doubt. The rounded normal of a needle may be mostly error, so this says how much.
-        let (pa, pb, pc, pv) = (self.at(a), self.at(b), self.at(c), self.at(v));
+        let (pa, pb, pc, pv) = (
+            self.double(a),
+            self.double(b),
+            self.double(c),
+            self.double(v),
+        );
         let [p, q, r] = [pb, pc, pv].map(|x| minus(x, pa));
         let squares = [p, q, r].map(|x| dot(x, x));
         if squares.iter().all(|x| SQUARES.contains(x)) {

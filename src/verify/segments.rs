@@ -14,6 +14,7 @@ use super::tables::sorted2;
 use super::{Case, Findings, Violation};
 use crate::mesh::VertexId;
 use rustc_hash::FxHashSet;
+use std::cmp::Ordering;
 
 /// What became of a segment.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,12 +110,11 @@ fn chain(case: &Case, [a, b]: [VertexId; 2]) -> Option<Vec<VertexId>> {
     let axis = (0..3)
         .max_by(|&i, &j| along[i].total_cmp(&along[j]))
         .expect("three axes");
-    let forward = if case.points.at(b)[axis] > case.points.at(a)[axis] {
-        1.0
-    } else {
-        -1.0
+    let forward = case.points.order(axis, a, b);
+    let order = |v: VertexId, w: VertexId| match forward {
+        Ordering::Greater => case.points.order(axis, w, v),
+        _ => case.points.order(axis, v, w),
     };
-    let position = |v: VertexId| forward * case.points.at(v)[axis];
     // Depth first, nearest first; a vertex that led nowhere is not tried again.
     let mut tried = vec![a];
     let mut path = vec![a];
@@ -127,9 +127,9 @@ fn chain(case: &Case, [a, b]: [VertexId; 2]) -> Option<Vec<VertexId>> {
             .neighbours(v)
             .iter()
             .copied()
-            .filter(|&w| position(w) > position(v) && (w == b || position(w) < position(b)))
+            .filter(|&w| order(v, w).is_lt() && (w == b || order(w, b).is_lt()))
             .filter(|w| !tried.contains(w) && (*w == b || is_on(case, [a, b], *w)))
-            .min_by(|&w, &x| position(w).total_cmp(&position(x)));
+            .min_by(|&w, &x| order(w, x));
         match step {
             Some(w) => {
                 tried.push(w);

@@ -55,6 +55,10 @@ pub(super) fn check(plc: &Plc, mesh: &ExportedMesh, findings: &mut Findings) {
         .iter()
         .enumerate()
         .for_each(|(i, e)| range("mesh edge", i, &e.vertices, n));
+    mesh.exact
+        .iter()
+        .enumerate()
+        .for_each(|(i, p)| range("exact position", i, &[p.vertex, p.ends[0], p.ends[1]], n));
     plc.segments
         .iter()
         .enumerate()

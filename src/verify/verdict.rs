@@ -32,6 +32,10 @@ pub struct Counts {
     pub vertices: usize,
     /// Those among them that are not vertices of the input.
     pub steiner_vertices: usize,
+    /// Vertices with exact positions that are no doubles.
+    pub exact_vertices: usize,
+    /// Tetrahedra that are positive, but not with the coordinates of those vertices as they are written.
+    pub spoilt_by_rounding: usize,
     /// Distinct input vertices.
     pub input_vertices: usize,
     /// Input vertices in no tetrahedron: outside the domain.
@@ -124,6 +128,13 @@ impl fmt::Display for Verdict {
             "vertices: {} used, {} Steiner; input: {}, {} outside",
             c.vertices, c.steiner_vertices, c.input_vertices, c.input_vertices_outside
         )?;
+        if c.exact_vertices > 0 {
+            writeln!(
+                f,
+                "exact positions: {} vertices; with their rounded coordinates {} tetrahedra are not positive",
+                c.exact_vertices, c.spoilt_by_rounding
+            )?;
+        }
         writeln!(
             f,
             "faces: {}, {} on the boundary, {} on facets, {} checked for local Delaunayhood ({} cospherical)",

@@ -17,7 +17,7 @@ pub(super) fn check(case: &Case, findings: &mut Findings) {
         findings.counts.vertices += 1;
         findings.counts.steiner_vertices += usize::from(!case.input.is_site(v));
         let w = *first.entry(place_key(case.points.at(v))).or_insert(v);
-        if w != v {
+        if w != v && case.points.coincide(v, w) {
             findings.report(Violation::CoincidentVertices {
                 first: case.place(w),
                 second: case.place(v),

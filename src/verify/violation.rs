@@ -29,6 +29,19 @@ pub enum Violation {
         /// The coordinates.
         at: [f64; 3],
     },
+    /// The exact position of a vertex is not between two vertices whose coordinates are doubles, is given twice, or is not
+    /// where the coordinates of the vertex are, up to rounding.
+    #[error("vertex {vertex} is said to be exactly at {t} between {} and {}, which {reason}", .ends[0], .ends[1])]
+    WrongPosition {
+        /// The vertex.
+        vertex: Place,
+        /// The ends of the segment.
+        ends: [Place; 2],
+        /// The parameter.
+        t: f64,
+        /// What is wrong.
+        reason: &'static str,
+    },
     /// A tetrahedron has the same vertex twice.
     #[error("tetrahedron {tet} has vertex {vertex} twice")]
     RepeatedVertex {
@@ -250,6 +263,7 @@ impl Violation {
         match self {
             Violation::IndexOutOfRange { .. } => "index out of range",
             Violation::NotFinite { .. } => "coordinate not finite",
+            Violation::WrongPosition { .. } => "wrong position",
             Violation::RepeatedVertex { .. } => "repeated vertex",
             Violation::RegionCount { .. } => "region count",
             Violation::Empty => "empty mesh",
