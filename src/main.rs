@@ -40,7 +40,7 @@ enum Command {
 
 #[derive(clap::Args)]
 struct MeshArguments {
-    /// The PLC: .poly, .smesh, .node, .off or .stl.
+    /// The PLC: .poly, .smesh, .node, .off, .stl, .ply, .obj or .mesh.
     input: PathBuf,
     /// Where to write the mesh: NAME.node writes NAME.node, .ele, .face and .edge; NAME.vtu is for ParaView.
     #[arg(short, long)]

@@ -257,7 +257,7 @@ fn off_says_where_it_is_wrong() {
     };
     for (text, line, reason) in [
         ("ply\n".into(), 1, not_off),
-        ("OFF BINARY\n\0\0\0\0".into(), 1, BinaryOff),
+        ("nOFF 4 1 0 0\n".into(), 1, Dimension(4)),
         ("4OFF\n1 0 0\n".into(), 1, Dimension(4)),
         ("OFF\n0 0 0\n".into(), 2, NoVertices),
         (

@@ -15,7 +15,9 @@ pub enum FormatError {
         source: std::io::Error,
     },
     /// The extension is none that we know.
-    #[error("unknown file extension {0:?}: expected .poly, .smesh, .node, .off or .stl")]
+    #[error(
+        "unknown file extension {0:?}: expected .poly, .smesh, .node, .off, .stl, .ply, .obj or .mesh"
+    )]
     UnknownExtension(String),
     /// The file itself is wrong.
     #[error("{place}: {reason}")]
@@ -24,6 +26,15 @@ pub enum FormatError {
         place: Place,
         /// Why.
         reason: Reason,
+    },
+    /// The file is wrong as what its extension says, and looks like something else.
+    #[error("{error} (the file looks like {found}, whatever its extension)")]
+    LooksLike {
+        /// What is wrong with it.
+        #[source]
+        error: Box<FormatError>,
+        /// What it looks like.
+        found: &'static str,
     },
     /// The `.node` file that holds the vertices of a `.poly` or `.smesh` file is wrong.
     #[error("in the .node file of the vertices: {0}")]
@@ -65,6 +76,9 @@ pub enum Reason {
         /// What should be there.
         expected: &'static str,
     },
+    /// A number written with a decimal comma.
+    #[error("{0:?} has a comma where a number has a decimal point")]
+    DecimalComma(String),
     /// A coordinate that is infinite, not a number, or too large for a double.
     #[error("{0} is not a finite number")]
     NotFinite(String),
@@ -109,15 +123,27 @@ pub enum Reason {
     /// A facet or a polygon without vertices.
     #[error("a facet has no vertices")]
     EmptyFacet,
-    /// A face of an OFF file with fewer than three vertices.
+    /// A face with fewer than three vertices, in a format whose faces are areas.
     #[error("a face has only {0} vertices")]
     ShortFace(i64),
     /// Something follows where the line or the file should end: some count is too small.
     #[error("{0:?} is more than was announced")]
     Trailing(String),
-    /// The binary variant of OFF, whose byte order is not settled among its writers.
-    #[error("binary OFF files are not supported; convert the file to ASCII")]
-    BinaryOff,
+    /// Something that the format allows, or that programs write, but that no reader here understands.
+    #[error("{0} not supported")]
+    Unsupported(&'static str),
+    /// Something without which the file says nothing.
+    #[error("{0} missing")]
+    Missing(&'static str),
+    /// Something that can be given but once.
+    #[error("{0} given twice")]
+    Twice(&'static str),
+    /// A compressed file.
+    #[error("the file is compressed ({0}); unpack it first")]
+    Compressed(&'static str),
+    /// A text file of 16-bit characters.
+    #[error("the file is text in UTF-16; save it as ASCII or UTF-8")]
+    Utf16,
     /// A binary STL file whose size is not that of its triangles.
     #[error("{triangles} triangles take {expected} bytes, but the file has {found}")]
     StlSize {

@@ -1,43 +1,89 @@
-//! Files: PLCs in, in the formats of TetGen (`.poly`, `.smesh`, `.node`), OFF and STL; meshes out and in.
+//! Files: PLCs in, in the formats of TetGen (`.poly`, `.smesh`, `.node`), OFF, STL, PLY, OBJ and Medit (`.mesh`);
+//! meshes out and in.
 //!
 //! Every reader takes the bytes of a file and gives a [`Plc`] or a [`FormatError`] with a line or an offset. Readers are
 //! linear in the file's size whatever its header says, and check the syntax alone; [`crate::plc::Complex::new`] checks
-//! the geometry.
+//! the geometry. What a reader accepts has at least one vertex, finite coordinates, and no corner out of range.
 
+mod bytes;
 mod error;
+mod medit;
 mod mesh_error;
 mod mesh_file;
+mod obj;
 mod off;
+mod off_binary;
+mod ply;
+mod ply_header;
 mod poly;
 mod poly_file;
+mod sniff;
 mod stl;
 mod tetgen_mesh;
 mod text;
 mod vtu;
 
 pub use error::{FormatError, Place, Reason};
+pub use medit::read_medit;
 pub use mesh_error::{MeshFileError, MeshLineError, UnwritableMesh};
 pub use mesh_file::{mesh_paths, read_mesh, write_mesh};
+pub use obj::read_obj;
 pub use off::read_off;
+pub use ply::read_ply;
 pub use poly::{read_node, read_poly, read_smesh};
 pub use poly_file::write_poly;
 pub use stl::read_stl;
 
 use crate::plc::Plc;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Reads a file in the format that its extension names: `.poly`, `.smesh`, `.node`, `.off` or `.stl` in either case.
+/// Reads a file in the format that its extension names, in either case: `.poly`, `.smesh`, `.node`, `.off`, `.stl`,
+/// `.ply`, `.obj` or `.mesh`.
+///
+/// # Errors
+/// If the file cannot be read or is malformed; and if it then looks like a file of another format, the error says so.
 pub fn read_plc(path: &Path) -> Result<Plc, FormatError> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let given = path.extension().unwrap_or_default().to_string_lossy();
+    let extension = match &given.to_ascii_lowercase()[..] {
+        // Binary, which the reader refuses.
+        "meshb" => "mesh".to_owned(),
+        other => other.to_owned(),
+    };
+    let bytes = bytes_of(path)?;
+    sniff::refuse_packed(&bytes)?;
     // The vertices of a .poly or .smesh file may be in a .node file beside it.
-    let nodes = || bytes_of(&path.with_extension("node"));
-    match extension.to_ascii_lowercase().as_str() {
-        "poly" => read_poly(&bytes_of(path)?, nodes),
-        "smesh" => read_smesh(&bytes_of(path)?, nodes),
-        "node" => read_node(&bytes_of(path)?),
-        "off" => read_off(&bytes_of(path)?),
-        "stl" => read_stl(&bytes_of(path)?),
-        _ => Err(FormatError::UnknownExtension(extension.into_owned())),
+    let nodes = || {
+        let bytes = bytes_of(&sibling(path, "node"))?;
+        sniff::refuse_packed(&bytes)?;
+        Ok(bytes)
+    };
+    let result = match &extension[..] {
+        "poly" => read_poly(&bytes, nodes),
+        "smesh" => read_smesh(&bytes, nodes),
+        "node" => read_node(&bytes),
+        "off" => read_off(&bytes),
+        "stl" => read_stl(&bytes),
+        "ply" => read_ply(&bytes),
+        "obj" => read_obj(&bytes),
+        "mesh" => read_medit(&bytes),
+        _ => Err(FormatError::UnknownExtension(given.into_owned())),
+    };
+    result.map_err(|error| match sniff::looks_like(&bytes) {
+        Some((other, found)) if other != Some(&extension[..]) => FormatError::LooksLike {
+            error: Box::new(error),
+            found,
+        },
+        _ => error,
+    })
+}
+
+/// The file of the same stem with another extension: in capitals if that of `path` is.
+pub(crate) fn sibling(path: &Path, extension: &str) -> PathBuf {
+    let given = path.extension().unwrap_or_default().to_string_lossy();
+    if given.chars().any(char::is_uppercase) && !given.chars().any(char::is_lowercase) {
+        path.with_extension(extension.to_ascii_uppercase())
+    } else {
+        path.with_extension(extension)
     }
 }
 

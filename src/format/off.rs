@@ -4,9 +4,11 @@
 //! all; then the numbers of vertices and faces and possibly of edges; one line per vertex, one per face. What follows the
 //! three coordinates or the corners in a line are colours, and ignored. Vertices count from 0.
 //!
-//! The binary variant is refused: the manual asks for big-endian numbers, the files in the wild are little-endian.
+//! The dimension of `nOFF` stands before the counts, and must be 3; `4OFF` is refused. After `OFF BINARY` see
+//! [`super::off_binary`].
 
 use super::error::{FormatError, Reason};
+use super::off_binary::read_binary;
 use super::poly::vertex;
 use super::text::Text;
 use crate::plc::{Facet, Plc};
@@ -14,7 +16,12 @@ use crate::plc::{Facet, Plc};
 /// Reads an OFF file.
 pub fn read_off(bytes: &[u8]) -> Result<Plc, FormatError> {
     let mut text = Text::new(bytes, true);
-    let vertices = header(&mut text)?;
+    let vertices = match header(&mut text)? {
+        Header::Vertices(count) => count,
+        Header::Binary { extra } => {
+            return read_binary(bytes, bytes.len() - text.rest().len(), extra);
+        }
+    };
     let token = text.anywhere("the number of faces")?;
     let faces = text.count(token, "the number of faces")?;
     // The number of edges is often wrong, and needed by nobody.
@@ -42,29 +49,54 @@ pub fn read_off(bytes: &[u8]) -> Result<Plc, FormatError> {
     Ok(plc)
 }
 
-/// Reads the header, if there is one, and the number of vertices.
-fn header(text: &mut Text) -> Result<u64, FormatError> {
-    let mut token = text.anywhere("the header OFF")?;
-    if token[0].is_ascii_alphabetic() || token.len() > 1 && token.ends_with(b"OFF") {
-        check_prefix(text, token)?;
-        token = text.anywhere("the number of vertices")?;
-        if token.eq_ignore_ascii_case(b"BINARY") {
-            return Err(text.error(Reason::BinaryOff));
-        }
-    }
-    text.vertex_count(token)
+/// What is known after the header.
+enum Header {
+    /// The number of vertices.
+    Vertices(u64),
+    /// Numbers follow in binary, and so many bytes follow the coordinates of a vertex.
+    Binary { extra: u64 },
 }
 
-/// The header is `[ST][C][N][4][n]OFF`, where 4 and n stand for dimensions other than 3.
-fn check_prefix(text: &Text, token: &[u8]) -> Result<(), FormatError> {
+/// Reads the header, if there is one, and the number of vertices.
+fn header(text: &mut Text) -> Result<Header, FormatError> {
+    let mut token = text.anywhere("the header OFF")?;
+    if token[0].is_ascii_alphabetic() || token.len() > 1 && token.ends_with(b"OFF") {
+        let extra = prefix(text, token)?;
+        if text.has_word() {
+            token = text.here("BINARY")?;
+            if token.eq_ignore_ascii_case(b"BINARY") {
+                text.end_line()?;
+                return Ok(Header::Binary { extra });
+            }
+        } else {
+            token = text.anywhere("the number of vertices")?;
+        }
+    }
+    text.vertex_count(token).map(Header::Vertices)
+}
+
+/// The header is `[ST][C][N][4][n]OFF`, where 4 and n stand for dimensions other than 3. Returns the size of texture
+/// coordinates, colour and normal of a vertex in a binary file.
+fn prefix(text: &mut Text, token: &[u8]) -> Result<u64, FormatError> {
+    if token == b"nOFF" {
+        let token = text.anywhere("the dimension")?;
+        return match text.integer(token)? {
+            3 => Ok(0),
+            dimension => Err(text.error(Reason::Dimension(dimension))),
+        };
+    }
     let word = token.to_ascii_uppercase();
     let not_off = || text.bad(token, "OFF, COFF, NOFF or STOFF");
     let mut prefix = word.strip_suffix(b"OFF").ok_or_else(not_off)?;
-    for part in [&b"ST"[..], b"C", b"N"] {
-        prefix = prefix.strip_prefix(part).unwrap_or(prefix);
+    let mut extra = 0;
+    for (part, size) in [(&b"ST"[..], 8), (b"C", 16), (b"N", 12)] {
+        if let Some(rest) = prefix.strip_prefix(part) {
+            prefix = rest;
+            extra += size;
+        }
     }
     match prefix {
-        b"" => Ok(()),
+        b"" => Ok(extra),
         b"4" => Err(text.error(Reason::Dimension(4))),
         _ => Err(not_off()),
     }

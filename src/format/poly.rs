@@ -208,9 +208,13 @@ fn smesh_facet(text: &mut Text, plc: &Plc) -> Result<Facet, FormatError> {
 }
 
 fn marker(text: &mut Text) -> Result<i32, FormatError> {
-    let Some(token) = text.token() else {
-        return Ok(0);
-    };
+    match text.token() {
+        Some(token) => marker_of(text, token),
+        None => Ok(0),
+    }
+}
+
+pub(super) fn marker_of(text: &Text, token: &[u8]) -> Result<i32, FormatError> {
     let marker = text.integer(token)?;
     i32::try_from(marker).map_err(|_| text.bad(token, "a marker of 32 bits"))
 }

@@ -29,25 +29,43 @@ impl<'a> Text<'a> {
 
     /// Goes to the next line that has a word; false at the end of the file.
     pub fn advance(&mut self) -> bool {
-        while !self.rest.is_empty() {
-            let end = |b: &u8| matches!(b, b'\n' | b'\r');
-            let length = self.rest.iter().position(end).unwrap_or(self.rest.len());
-            let (line, tail) = self.rest.split_at(length);
-            self.rest = match tail {
-                [b'\r', b'\n', rest @ ..] | [_, rest @ ..] => rest,
-                [] => &[],
-            };
-            self.number += 1;
-            self.line = match line.iter().position(|&b| b == b'#') {
-                Some(comment) if self.comments => &line[..comment],
-                _ => line,
-            };
-            if !self.line.trim_ascii().is_empty() {
+        while self.next_line() {
+            if self.has_word() {
                 return true;
             }
         }
-        self.line = &[];
         false
+    }
+
+    /// Goes to the next line, blank or not; false at the end of the file.
+    pub fn next_line(&mut self) -> bool {
+        if self.rest.is_empty() {
+            self.line = &[];
+            return false;
+        }
+        let end = |b: &u8| matches!(b, b'\n' | b'\r');
+        let length = self.rest.iter().position(end).unwrap_or(self.rest.len());
+        let (line, tail) = self.rest.split_at(length);
+        self.rest = match tail {
+            [b'\r', b'\n', rest @ ..] | [_, rest @ ..] => rest,
+            [] => &[],
+        };
+        self.number += 1;
+        self.line = match line.iter().position(|&b| b == b'#') {
+            Some(comment) if self.comments => &line[..comment],
+            _ => line,
+        };
+        true
+    }
+
+    /// Whether the current line has one more word.
+    pub fn has_word(&self) -> bool {
+        !self.line.trim_ascii().is_empty()
+    }
+
+    /// What follows the current line.
+    pub fn rest(&self) -> &'a [u8] {
+        self.rest
     }
 
     /// Goes to the next line that has a word.
@@ -106,12 +124,17 @@ impl<'a> Text<'a> {
 
     /// A finite number.
     pub fn real(&self, token: &[u8]) -> Result<f64, FormatError> {
-        let x: f64 = self.parse(token, "a number")?;
+        let x = self.number(token)?;
         if x.is_finite() {
             Ok(x)
         } else {
             Err(self.error(Reason::NotFinite(shorten(token))))
         }
+    }
+
+    /// A number, finite or not.
+    pub fn number(&self, token: &[u8]) -> Result<f64, FormatError> {
+        self.parse(token, "a number")
     }
 
     /// A whole number.
@@ -152,7 +175,18 @@ impl<'a> Text<'a> {
         expected: &'static str,
     ) -> Result<T, FormatError> {
         let value = std::str::from_utf8(token).ok().and_then(|t| t.parse().ok());
-        value.ok_or_else(|| self.bad(token, expected))
+        value.ok_or_else(|| {
+            if has_decimal_comma(token) {
+                self.error(Reason::DecimalComma(shorten(token)))
+            } else {
+                self.bad(token, expected)
+            }
+        })
+    }
+
+    /// The line of the current word.
+    pub fn place(&self) -> Place {
+        Place::Line(self.number.max(1))
     }
 
     /// The error that `token` is not what was `expected`.
@@ -166,14 +200,24 @@ impl<'a> Text<'a> {
     /// An error at the current line.
     pub fn error(&self, reason: Reason) -> FormatError {
         FormatError::Malformed {
-            place: Place::Line(self.number.max(1)),
+            place: self.place(),
             reason,
         }
     }
 }
 
+/// Whether a word is a number but for a comma: `1,5` or `-2,50e3`.
+fn has_decimal_comma(token: &[u8]) -> bool {
+    let text = std::str::from_utf8(token).unwrap_or_default();
+    let (whole, fraction) = text.split_once(',').unwrap_or_default();
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    digit(whole.chars().next_back())
+        && digit(fraction.chars().next())
+        && text.replacen(',', ".", 1).parse::<f64>().is_ok()
+}
+
 /// The first 40 characters of a word, which in a binary file can be very long.
-fn shorten(token: &[u8]) -> String {
+pub(super) fn shorten(token: &[u8]) -> String {
     let text = String::from_utf8_lossy(&token[..token.len().min(160)]);
     text.chars().take(40).collect()
 }
@@ -207,6 +251,13 @@ mod tests {
             b"",
         ] {
             assert!(text.real(bad).is_err(), "{bad:?}");
+        }
+        for comma in [&b"1,5"[..], b"-2,50e3"] {
+            let reason = Reason::DecimalComma(shorten(comma));
+            assert_eq!(
+                text.real(comma).unwrap_err().to_string(),
+                text.error(reason).to_string()
+            );
         }
         for bad in [&b"1.0"[..], b"0x1", b"99999999999999999999"] {
             assert!(text.integer(bad).is_err(), "{bad:?}");

@@ -58,7 +58,7 @@ fn bad_files_are_refused_by_line() {
         ("word.off", &off(6).replacen("1 1 0", "1 l 0", 1)),
         ("cut.stl", &stl()[..300]),
         ("empty.node", ""),
-        ("cube.obj", "v 0 0 0\n"),
+        ("cube.step", "ISO-10303-21;\n"),
     ]);
     for command in ["mesh", "delaunay"] {
         let to = "-o x.node";
@@ -68,9 +68,9 @@ fn bad_files_are_refused_by_line() {
             &["none.poly", "cannot read"],
         );
         place.refuses(
-            &format!("{command} cube.obj {to}"),
+            &format!("{command} cube.step {to}"),
             2,
-            &["cube.obj", "\"obj\"", ".poly"],
+            &["cube.step", "\"step\"", ".poly", "looks like a STEP file"],
         );
         place.refuses(
             &format!("{command} cut.poly {to}"),
