@@ -3,10 +3,11 @@
 use super::{Stop, check_outputs, failure_path, read, save, say};
 use clap::ValueEnum;
 use serde::Serialize;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::error::Failure;
-use tetflip::format::write_poly;
+use tetflip::format::{write_complete, write_poly};
 use tetflip::plc::Plc;
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
@@ -28,8 +29,9 @@ pub(crate) struct MeshArguments {
     /// rug). Rounded, which can fail: `f64` (the paper's), `f32`, `bits:N` (N mantissa bits). All predicates of an
     /// insertion rounded, which fails oftener: `naive` (doubles), `naive:N`. N is 8, 11, 14, 16, 18, 20, 22, 24, 26, 28, 32,
     /// 36, 40, 44, 48, 53, 64, 80, 106, 160 or 256.
-    #[arg(long, value_name = "TYPE", default_value_t = Times::Filtered)]
-    times: Times,
+    /// [default: filtered]
+    #[arg(long, value_name = "TYPE")]
+    times: Option<Times>,
     /// Keep the whole convex hull instead of what the facets enclose.
     #[arg(long)]
     hull: bool,
@@ -60,7 +62,7 @@ enum InsertArgument {
 /// Makes the CDT and writes it.
 pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
     let options = Options {
-        insertion: insertion(arguments),
+        insertion: insertion(arguments)?,
         keep_hull: arguments.hull,
         merge_coplanar: !arguments.no_merge,
     };
@@ -115,6 +117,7 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         }
     }
     save(arguments.output.as_deref(), &mesh)?;
+    remove_old_region(arguments)?;
     if !arguments.quiet {
         say(&format!(
             "{} vertices ({} Steiner points), {} tetrahedra, {} faces on facets; {} flips{}",
@@ -129,11 +132,27 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
     Ok(())
 }
 
-fn insertion(arguments: &MeshArguments) -> Insertion {
-    match arguments.insert {
-        InsertArgument::Cavity => Insertion::Cavity,
-        InsertArgument::GiftWrap => Insertion::GiftWrap,
-        InsertArgument::Flip => Insertion::Flip(arguments.times),
+fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
+    match (arguments.insert, arguments.times) {
+        (InsertArgument::Flip, times) => Ok(Insertion::Flip(times.unwrap_or(Times::Filtered))),
+        (_, Some(times)) => Err(Stop::input(format!(
+            "--times {times} is about flips: it needs --insert flip"
+        ))),
+        (InsertArgument::Cavity, None) => Ok(Insertion::Cavity),
+        (InsertArgument::GiftWrap, None) => Ok(Insertion::GiftWrap),
+    }
+}
+
+/// Removes the region that an earlier run with the same output failed in: it is no part of this one.
+fn remove_old_region(arguments: &MeshArguments) -> Result<(), Stop> {
+    let Some(path) = arguments.output.as_deref().map(failure_path) else {
+        return Ok(());
+    };
+    match std::fs::remove_file(&path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(Stop::input(format!("{}: {error}", path.display())))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -146,11 +165,8 @@ fn dump_region(arguments: &MeshArguments, region: &Plc) -> String {
     if let Err(error) = write_poly(&path, region) {
         return format!("; the region cannot be written: {error}");
     }
-    let times = match insertion(arguments) {
-        Insertion::Flip(times) => times,
-        // What cavities fall back on.
-        Insertion::Cavity | Insertion::GiftWrap => Times::Filtered,
-    };
+    // Filtered is also what cavities fall back on.
+    let times = arguments.times.unwrap_or(Times::Filtered);
     let path = path.display();
     format!(
         "\nits region is in {path}; try again with: tetflip mesh {path} --hull --insert flip --times {times}"
@@ -173,8 +189,7 @@ fn write_report(path: &Path, input: &Path, outcome: &str, report: &Report) -> Re
         report,
     };
     let text = serde_json::to_string_pretty(&file).map_err(Stop::input)?;
-    std::fs::write(path, text + "\n")
-        .map_err(|error| Stop::input(format!("{}: {error}", path.display())))
+    write_complete(path, (text + "\n").as_bytes()).map_err(Stop::input)
 }
 
 /// A bar on stderr, where that is a terminal.

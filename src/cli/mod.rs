@@ -6,7 +6,9 @@ pub(crate) mod verify;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tetflip::format::{FormatError, mesh_paths, read_plc, read_poly, read_smesh, write_mesh};
+use tetflip::format::{
+    FormatError, mesh_paths, node_path, read_plc, read_poly, read_smesh, write_mesh,
+};
 use tetflip::mesh::ExportedMesh;
 use tetflip::plc::Plc;
 
@@ -68,7 +70,7 @@ pub(crate) fn check_outputs(
         outputs.extend(mesh_paths(path).map_err(Stop::input)?);
         outputs.push(failure_path(path));
     }
-    let node = input.with_extension("node");
+    let node = node_path(input);
     for output in outputs {
         let replaces = |file: &Path| match (output.canonicalize(), file.canonicalize()) {
             (Ok(output), Ok(file)) => output == file,
@@ -91,7 +93,7 @@ fn reads_node_file(input: &Path) -> bool {
     let mut asked = false;
     let nodes = || {
         asked = true;
-        std::fs::read(input.with_extension("node")).map_err(|source| FormatError::Io {
+        std::fs::read(node_path(input)).map_err(|source| FormatError::Io {
             path: input.to_owned(),
             source,
         })
