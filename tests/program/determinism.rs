@@ -36,15 +36,24 @@ fn spiky() -> String {
     text
 }
 
-/// Two layers of crossed wires and a square between them: Steiner points.
+/// Two layers of crossed wires, a square between them, and points among the wires: Steiner points.
 fn wires() -> String {
-    let mut text = "20 3\n".to_owned();
+    let mut text = "36 3\n".to_owned();
     for i in 0..4 {
         let n = 4 * i;
         text += &format!("{n} -5 {i} 0\n{} 5 {i} 0\n", n + 1);
         text += &format!("{} {i} -5 0.2\n{} {i} 5 0.2\n", n + 2, n + 3);
     }
-    text += "16 -1 -1 0.1\n17 4 -1 0.1\n18 4 4 0.1\n19 -1 4 0.1\n9 0\n1\n4 16 17 18 19\n";
+    text += "16 -1 -1 0.1\n17 4 -1 0.1\n18 4 4 0.1\n19 -1 4 0.1\n";
+    for n in 0..16 {
+        let (x, y) = (n % 4, n / 4);
+        text += &format!(
+            "{} {x}.5 {y}.5 {}\n",
+            n + 20,
+            if n % 3 == 0 { 0.25 } else { -0.05 }
+        );
+    }
+    text += "9 0\n1\n4 16 17 18 19\n";
     for i in 0..8 {
         text += &format!("1\n2 {} {}\n", 2 * i, 2 * i + 1);
     }
