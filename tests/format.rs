@@ -1,6 +1,6 @@
-//! The readers: what they must accept, what they must refuse and where, and that no bytes make them panic.
+//! The readers of TetGen's files, OFF and STL: what they must accept, and what they must refuse and where. The other formats
+//! are in `surface_formats`, random files in `fuzz_formats`.
 
-use proptest::prelude::*;
 use tetflip::format::{
     FormatError, Place, Reason, read_node, read_off, read_plc, read_poly, read_smesh, read_stl,
     write_poly,
@@ -347,68 +347,4 @@ fn stl_says_where_it_is_wrong() {
     }
     let quad = STL.replacen("endloop", "vertex 0 0 9\nendloop", 1);
     assert_eq!(refusal(read_stl(quad.as_bytes())).0, Place::Line(7));
-}
-
-/// No reader panics; what one accepts is in range and finite.
-fn read_all(bytes: &[u8]) {
-    let node = || Ok(bytes.to_vec());
-    let results = [
-        read_poly(bytes, node),
-        read_smesh(bytes, node),
-        read_node(bytes),
-        read_off(bytes),
-        read_stl(bytes),
-    ];
-    for plc in results.into_iter().flatten() {
-        assert!(!plc.vertices.is_empty());
-        assert!(plc.vertices.iter().flatten().all(|x| x.is_finite()));
-        let polygons = plc.facets.iter().flat_map(|f| &f.polygons);
-        let ends = plc.segments.iter().flat_map(|s| s.ends);
-        for v in polygons.flatten().copied().chain(ends) {
-            assert!(v.index() < plc.vertices.len());
-        }
-    }
-}
-
-proptest! {
-    #[test]
-    fn random_bytes_do_not_panic(bytes: Vec<u8>) {
-        read_all(&bytes);
-    }
-
-    #[test]
-    fn random_words_do_not_panic(words in prop::collection::vec(
-        prop_oneof![
-            prop::sample::select(vec![
-                "\n", "\r\n", "#", "OFF", "STOFF", "solid", "facet", "outer", "loop", "vertex", "endloop", "endfacet",
-                "endsolid", "nan", "1e999", "-1", "4294967295", "9223372036854775807", "1.5", "\0",
-            ]).prop_map(str::to_owned),
-            (0..5).prop_map(|i: i32| i.to_string()),
-            (0..5).prop_map(|i: i32| i.to_string()),
-        ], 0..60)) {
-        read_all(words.join(" ").as_bytes());
-    }
-
-    #[test]
-    fn mutated_files_do_not_panic(
-        file in 0usize..5,
-        cut in 0usize..600,
-        edits in prop::collection::vec((0usize..600, any::<u8>(), 0u8..4), 0..6),
-    ) {
-        let stl = binary_stl(b"solid", &[[[0.0; 3], [1.0; 3], [2.0, 0.0, 1.0]]; 3]);
-        let mut bytes = [POLY.as_bytes(), SMESH.as_bytes(), OFF.as_bytes(), STL.as_bytes(), &stl][file].to_vec();
-        for (at, byte, kind) in edits {
-            let at = at % bytes.len();
-            match kind {
-                0 => bytes[at] = byte,
-                1 => bytes.insert(at, byte),
-                2 => bytes[at] = b"0123456789-.e #\n"[byte as usize % 16],
-                _ => { bytes.remove(at); }
-            }
-        }
-        if cut < 300 {
-            bytes.truncate(cut);
-        }
-        read_all(&bytes);
-    }
 }

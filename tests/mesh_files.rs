@@ -448,3 +448,30 @@ fn failed_writes_leave_nothing_behind() {
     .unwrap_err();
     assert!(matches!(error, MeshFileError::Io { .. }));
 }
+
+/// A comma after a field ends it, as in TetGen; one within a number is a decimal comma, not the end of a field.
+#[test]
+fn decimal_commas_are_no_separators() {
+    let node = "4 3 0 0\n1, 0, 0, 0\n2 ,1 0 0\n3 0 1 0,\n4 0 0 1\n";
+    let place = directory(&[("a.node", node), ("a.ele", "1 4 0\n1 1 2 3 4\n")]);
+    let mesh = read_mesh(&place.path().join("a.node")).expect("a good file");
+    assert_eq!(mesh.vertices[1], [1.0, 0.0, 0.0]);
+    let decimal = node.replace("4 0 0 1", "4 0,0 0,0 1,0");
+    std::fs::write(place.path().join("a.node"), decimal).expect("a file");
+    let error = read_mesh(&place.path().join("a.node")).expect_err("commas");
+    assert!(
+        matches!(&error, MeshFileError::Line { line: 5, reason: MeshLineError::BadNumber { found, .. }, .. } if found == "0,0"),
+        "{error}"
+    );
+}
+
+/// Lines that end with CR alone are lines.
+#[test]
+fn mesh_files_of_every_line_ending() {
+    for ending in ["\n", "\r\n", "\r"] {
+        let text = "# c\n4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n".replace('\n', ending);
+        let place = directory(&[("a.node", &text), ("a.ele", "1 4 0\n1 1 2 3 4\n")]);
+        let mesh = read_mesh(&place.path().join("a.node")).expect("a good file");
+        assert_eq!(mesh.vertices.len(), 4);
+    }
+}

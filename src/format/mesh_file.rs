@@ -2,9 +2,11 @@
 //!
 //! Invariant: a file that bears its final name is complete. Every file is written beside its place under a temporary
 //! name; only when all of them are, they are renamed. (The renaming of four files is not one step: if the second
-//! rename fails, the first stands.)
+//! rename fails, the first stands. What is likely to make it fail, a directory of that name, is looked for before.)
+//!
+//! Extensions may be written in capitals, and then the other files' are as well: `M.ELE` stands beside `M.NODE`.
 
-use super::{MeshFileError, UnwritableMesh, tetgen_mesh, vtu};
+use super::{MeshFileError, UnwritableMesh, sibling, tetgen_mesh, vtu};
 use crate::mesh::{ExportedMesh, VertexId};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -26,36 +28,55 @@ pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, Mesh
     check(mesh)?;
     let mut staged: Vec<Staged> = match format {
         Format::TetGen => [
-            stage(path.with_extension("node"), |out| {
+            stage(sibling(path, "node"), |out| {
                 tetgen_mesh::write_node(out, mesh)
             })?,
-            stage(path.with_extension("ele"), |out| {
+            stage(sibling(path, "ele"), |out| {
                 tetgen_mesh::write_ele(out, mesh)
             })?,
-            stage(path.with_extension("face"), |out| {
+            stage(sibling(path, "face"), |out| {
                 tetgen_mesh::write_face(out, mesh)
             })?,
-            stage(path.with_extension("edge"), |out| {
+            stage(sibling(path, "edge"), |out| {
                 tetgen_mesh::write_edge(out, mesh)
             })?,
         ]
         .into(),
         Format::Vtu => vec![stage(path.to_path_buf(), |out| vtu::write(out, mesh))?],
     };
-    if let Format::TetGen = format {
-        let exact = path.with_extension("steiner");
-        if !mesh.exact.is_empty() {
-            staged.push(stage(exact, |out| tetgen_mesh::write_steiner(out, mesh))?);
-        } else if let Err(source) = std::fs::remove_file(&exact)
-            && source.kind() != io::ErrorKind::NotFound
-        {
-            return Err(MeshFileError::Io {
-                path: exact,
-                source,
-            });
-        }
+    let exact = sibling(path, "steiner");
+    let has_exact = matches!(format, Format::TetGen) && !mesh.exact.is_empty();
+    if has_exact {
+        staged.push(stage(exact.clone(), |out| tetgen_mesh::write_steiner(out, mesh))?);
+    }
+    staged.iter().try_for_each(Staged::check_place)?;
+    if matches!(format, Format::TetGen)
+        && !has_exact
+        && let Err(source) = std::fs::remove_file(&exact)
+        && source.kind() != io::ErrorKind::NotFound
+    {
+        return Err(MeshFileError::Io {
+            path: exact,
+            source,
+        });
     }
     staged.into_iter().map(Staged::publish).collect()
+}
+
+/// Writes a file of any kind, which is complete or, if that fails, not there (or as it was). What is no file but a pipe or
+/// a terminal is written to as it stands.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write_complete(path: &Path, bytes: &[u8]) -> Result<(), MeshFileError> {
+    if path.metadata().is_ok_and(|place| !place.is_file()) {
+        return std::fs::write(path, bytes).map_err(|source| MeshFileError::Io {
+            path: path.to_path_buf(),
+            source,
+        });
+    }
+    let staged = stage(path.to_path_buf(), |out| out.write_all(bytes))?;
+    staged.publish().map(|_| ())
 }
 
 /// The files that [`write_mesh`] writes for `path`.
@@ -65,7 +86,7 @@ pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, Mesh
 pub fn mesh_paths(path: &Path) -> Result<Vec<PathBuf>, MeshFileError> {
     Ok(match Format::to_write(path)? {
         Format::TetGen => ["node", "ele", "face", "edge", "steiner"]
-            .map(|extension| path.with_extension(extension))
+            .map(|extension| sibling(path, extension))
             .into(),
         Format::Vtu => vec![path.to_path_buf()],
     })
@@ -106,7 +127,7 @@ impl Format {
     }
 
     fn of_extension(extension: &str) -> Option<Format> {
-        match extension {
+        match &extension.to_ascii_lowercase()[..] {
             "node" | "ele" | "face" | "edge" => Some(Format::TetGen),
             "vtu" => Some(Format::Vtu),
             _ => None,
@@ -164,6 +185,17 @@ pub(super) struct Staged {
 }
 
 impl Staged {
+    /// A directory cannot be replaced.
+    fn check_place(&self) -> Result<(), MeshFileError> {
+        if self.path.is_dir() {
+            return Err(MeshFileError::Io {
+                path: self.path.clone(),
+                source: io::ErrorKind::IsADirectory.into(),
+            });
+        }
+        Ok(())
+    }
+
     pub fn publish(self) -> Result<PathBuf, MeshFileError> {
         match self.file.persist(&self.path) {
             Ok(_) => Ok(self.path),

@@ -26,7 +26,7 @@ mod vtu;
 pub use error::{FormatError, Place, Reason};
 pub use medit::read_medit;
 pub use mesh_error::{MeshFileError, MeshLineError, UnwritableMesh};
-pub use mesh_file::{mesh_paths, read_mesh, write_mesh};
+pub use mesh_file::{mesh_paths, read_mesh, write_complete, write_mesh};
 pub use obj::read_obj;
 pub use off::read_off;
 pub use ply::read_ply;
@@ -53,7 +53,7 @@ pub fn read_plc(path: &Path) -> Result<Plc, FormatError> {
     sniff::refuse_packed(&bytes)?;
     // The vertices of a .poly or .smesh file may be in a .node file beside it.
     let nodes = || {
-        let bytes = bytes_of(&sibling(path, "node"))?;
+        let bytes = bytes_of(&node_path(path))?;
         sniff::refuse_packed(&bytes)?;
         Ok(bytes)
     };
@@ -77,8 +77,13 @@ pub fn read_plc(path: &Path) -> Result<Plc, FormatError> {
     })
 }
 
+/// The file that holds the vertices of a `.poly` or `.smesh` file whose own list of vertices is empty.
+pub fn node_path(path: &Path) -> PathBuf {
+    sibling(path, "node")
+}
+
 /// The file of the same stem with another extension: in capitals if that of `path` is.
-pub(crate) fn sibling(path: &Path, extension: &str) -> PathBuf {
+fn sibling(path: &Path, extension: &str) -> PathBuf {
     let given = path.extension().unwrap_or_default().to_string_lossy();
     if given.chars().any(char::is_uppercase) && !given.chars().any(char::is_lowercase) {
         path.with_extension(extension.to_ascii_uppercase())

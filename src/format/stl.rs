@@ -82,7 +82,8 @@ fn read_binary(bytes: &[u8], mesh: &mut Merged) -> Result<(), FormatError> {
             *x = f64::from(value);
         }
         let [ax, ay, az, bx, by, bz, cx, cy, cz] = numbers;
-        mesh.triangle([[ax, ay, az], [bx, by, bz], [cx, cy, cz]]);
+        mesh.triangle([[ax, ay, az], [bx, by, bz], [cx, cy, cz]])
+            .map_err(|reason| error(HEADER + i * TRIANGLE, reason))?;
     }
     Ok(())
 }
@@ -111,7 +112,8 @@ fn read_ascii(bytes: &[u8], mesh: &mut Merged) -> Result<(), FormatError> {
                 *corner = text.point()?;
             }
             keyword(&mut text, &["endloop", "endfacet"])?;
-            mesh.triangle(corners);
+            mesh.triangle(corners)
+                .map_err(|reason| text.error(reason))?;
         }
     }
     Ok(())
@@ -135,7 +137,11 @@ struct Merged {
 }
 
 impl Merged {
-    fn triangle(&mut self, corners: [[f64; 3]; 3]) {
+    fn triangle(&mut self, corners: [[f64; 3]; 3]) -> Result<(), Reason> {
+        let count = self.plc.vertices.len() as u64 + 3;
+        if count >= u64::from(u32::MAX) {
+            return Err(Reason::TooManyVertices(count));
+        }
         let polygon = corners.map(|point| {
             // −0 + 0 = 0
             let key = point.map(|x| (x + 0.0).to_bits());
@@ -148,5 +154,6 @@ impl Merged {
             polygons: vec![polygon.to_vec()],
             ..Facet::default()
         });
+        Ok(())
     }
 }

@@ -15,7 +15,8 @@
 //! that vertices keep their order. Time and memory are linear in the size of the files, whatever a header says.
 
 use super::mesh_file::Shortest;
-use super::{MeshFileError, MeshLineError};
+use super::text::Text;
+use super::{MeshFileError, MeshLineError, sibling};
 use crate::mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, VertexId};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -96,14 +97,14 @@ fn write_vertices(
 
 /// Reads the files of the stem of `path`; `.face`, `.edge` and `.steiner` may be missing.
 pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
-    let node = Source::open(path.with_extension("node"))?;
+    let node = Source::open(sibling(path, "node"))?;
     let (first_index, vertices) = read_node(&node)?;
     let numbering = Numbering {
         first: first_index,
         count: vertices.len(),
     };
-    let (tets, regions) = read_ele(&Source::open(path.with_extension("ele"))?, numbering)?;
-    let faces = match Source::open_if_exists(path.with_extension("face"))? {
+    let (tets, regions) = read_ele(&Source::open(sibling(path, "ele"))?, numbering)?;
+    let faces = match Source::open_if_exists(sibling(path, "face"))? {
         Some(source) => read_marked(&source, |line, marker| {
             let vertices = numbering.vertices(line)?;
             let marker = marker.read(line)?;
@@ -111,7 +112,7 @@ pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
         })?,
         None => Vec::new(),
     };
-    let edges = match Source::open_if_exists(path.with_extension("edge"))? {
+    let edges = match Source::open_if_exists(sibling(path, "edge"))? {
         Some(source) => read_marked(&source, |line, marker| {
             let vertices = numbering.vertices(line)?;
             let marker = marker.read(line)?;
@@ -119,7 +120,7 @@ pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
         })?,
         None => Vec::new(),
     };
-    let exact = match Source::open_if_exists(path.with_extension("steiner"))? {
+    let exact = match Source::open_if_exists(sibling(path, "steiner"))? {
         Some(source) => read_steiner(&source, numbering)?,
         None => Vec::new(),
     };
@@ -297,18 +298,11 @@ impl Source {
             line,
             reason,
         };
-        let mut lines = self
-            .bytes
-            .split(|&b| b == b'\n')
-            .enumerate()
-            .filter_map(|(i, bytes)| {
-                let text = bytes
-                    .split(|&b| b == b'#')
-                    .next()
-                    .unwrap_or_default()
-                    .trim_ascii();
-                (!text.is_empty()).then_some((i + 1, Line { rest: text }))
-            });
+        let mut text = Text::new(&self.bytes, true);
+        let mut lines = std::iter::from_fn(|| {
+            let more = text.advance();
+            more.then(|| (text.number_of_line(), Line { rest: text.line() }))
+        });
         let (first, mut line) = lines.next().ok_or_else(|| at(1, MeshLineError::NoHeader))?;
         let (promised, header) = header(&mut line).map_err(|reason| at(first, reason))?;
         // Not Vec::with_capacity(promised): a header may promise anything.
@@ -331,19 +325,21 @@ impl Source {
     }
 }
 
-/// What is left of a line: fields between blanks (or commas, which TetGen takes as well).
+/// What is left of a line: fields between blanks, each of which a comma may end, as TetGen allows. A comma within a field is
+/// more likely a decimal one, and no number.
 struct Line<'a> {
     rest: &'a [u8],
 }
 
 impl<'a> Line<'a> {
     fn next(&mut self) -> Option<&'a [u8]> {
-        let blank = |b: &u8| b.is_ascii_whitespace() || *b == b',';
-        let start = self.rest.iter().position(|b| !blank(b))?;
+        let blank = |b: &u8| b.is_ascii_whitespace();
+        let start = self.rest.iter().position(|b| !blank(b) && *b != b',')?;
         let rest = &self.rest[start..];
         let end = rest.iter().position(blank).unwrap_or(rest.len());
         let (field, rest) = rest.split_at(end);
         self.rest = rest;
+        let field = field.strip_suffix(b",").unwrap_or(field);
         Some(field)
     }
 

@@ -63,6 +63,16 @@ impl<'a> Text<'a> {
         !self.line.trim_ascii().is_empty()
     }
 
+    /// The number of the current line, from 1.
+    pub fn number_of_line(&self) -> usize {
+        self.number
+    }
+
+    /// What is left of the current line.
+    pub fn line(&self) -> &'a [u8] {
+        self.line
+    }
+
     /// What follows the current line.
     pub fn rest(&self) -> &'a [u8] {
         self.rest

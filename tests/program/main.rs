@@ -1,7 +1,9 @@
 //! The program: what it accepts, refuses, writes and says. Exit status 0 is success, 1 that the algorithm gave up or a
 //! verification failed, 2 bad input or usage; whatever fails leaves no file behind.
 
+mod determinism;
 mod documents;
+mod files;
 mod input;
 mod place;
 mod refusals;

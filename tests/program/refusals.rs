@@ -225,6 +225,13 @@ fn bad_usage_ends_with_2() {
         let run = place.run("mesh a.poly --times rug -o x.node").ends_with(2);
         assert!(run.stderr().contains("--features rug"), "{}", run.stderr());
     }
+    for insert in ["cavity", "gift-wrap"] {
+        place.refuses(
+            &format!("mesh a.poly --insert {insert} --times exact"),
+            2,
+            &["--times exact", "--insert flip"],
+        );
+    }
     let run = place.run("mesh a.poly --times bits:31").ends_with(2);
     assert!(run.stderr().contains("8, 11, 14, 16"), "{}", run.stderr());
     for arguments in [
@@ -252,7 +259,7 @@ fn bad_usage_ends_with_2() {
 }
 
 /// Ten points on a sphere and a square through it, on which rounded flip times fail.
-const SPHERE: &str = "10 3\n0 8 -2 0\n1 -4 4 -6\n2 80 80 -1\n3 -80 80 -1\n4 -2 -8 0\n5 -4 -6 4\n6 -80 -80 -1\n7 -2 8 0\n\
+pub const SPHERE: &str = "10 3\n0 8 -2 0\n1 -4 4 -6\n2 80 80 -1\n3 -80 80 -1\n4 -2 -8 0\n5 -4 -6 4\n6 -80 -80 -1\n7 -2 8 0\n\
     8 80 -80 -1\n9 2 8 0\n1 0\n1\n4 6 8 2 3\n0\n0\n";
 
 #[test]

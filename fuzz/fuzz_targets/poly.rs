@@ -1,0 +1,9 @@
+//! `read_poly` on any bytes.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    tetflip_fuzz::check(
+        bytes,
+        tetflip::format::read_poly(bytes, || Ok(bytes.to_vec())),
+    );
+});

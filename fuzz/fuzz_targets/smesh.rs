@@ -1,0 +1,9 @@
+//! `read_smesh` on any bytes.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    tetflip_fuzz::check(
+        bytes,
+        tetflip::format::read_smesh(bytes, || Ok(bytes.to_vec())),
+    );
+});

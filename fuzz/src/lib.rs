@@ -1,0 +1,23 @@
+//! What must hold whatever a reader is given.
+
+use tetflip::format::FormatError;
+use tetflip::plc::Plc;
+
+/// What is accepted is finite, in range, and no larger than the file; what is refused can be said.
+pub fn check(bytes: &[u8], result: Result<Plc, FormatError>) {
+    let plc = match result {
+        Ok(plc) => plc,
+        Err(error) => {
+            assert!(error.to_string().len() < 1000);
+            return;
+        }
+    };
+    assert!(!plc.vertices.is_empty() && plc.first_index <= 1);
+    assert!(plc.vertices.len() + plc.facets.len() + plc.segments.len() <= bytes.len());
+    assert!(plc.vertices.iter().flatten().all(|x| x.is_finite()));
+    let polygons = plc.facets.iter().flat_map(|f| &f.polygons);
+    let ends = plc.segments.iter().flat_map(|s| s.ends);
+    for v in polygons.flatten().copied().chain(ends) {
+        assert!(v.index() < plc.vertices.len());
+    }
+}

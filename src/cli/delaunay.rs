@@ -1,0 +1,75 @@
+//! `tetflip delaunay`: the Delaunay tetrahedralization of the vertices of a file.
+
+use super::{Stop, check_outputs, read, save, say};
+use std::path::PathBuf;
+use tetflip::delaunay::delaunay;
+use tetflip::mesh::{ExportedFace, ExportedMesh, TetMesh, VertexId};
+use tetflip::plc::{Complex, Plc};
+use tetflip::predicate::DoublePoints;
+
+#[derive(clap::Args)]
+pub(crate) struct DelaunayArguments {
+    /// The points: any input format.
+    input: PathBuf,
+    /// Where to write the mesh.
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// No summary.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Makes the Delaunay tetrahedralization of the vertices and writes it.
+pub(crate) fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop> {
+    check_outputs(&arguments.input, arguments.output.as_deref(), None)?;
+    let plc = read(&arguments.input)?;
+    let vertices_only = Plc {
+        first_index: plc.first_index,
+        vertices: plc.vertices,
+        ..Plc::default()
+    };
+    let complex = Complex::new(&vertices_only, true).map_err(Stop::input)?;
+    let points = DoublePoints::new(vertices_only.vertices);
+    let distinct: Vec<VertexId> = (0..complex.representative.len())
+        .map(VertexId::new)
+        .filter(|&v| complex.representative[v.index()] == v)
+        .collect();
+    let duplicates = complex.representative.len() - distinct.len();
+    let result = delaunay(&points, &distinct).map_err(Stop::input)?;
+    let tets: Vec<[VertexId; 4]> = result
+        .mesh
+        .finite()
+        .map(|t| result.mesh.vertices(t))
+        .collect();
+    if let Some(path) = &arguments.output {
+        let mesh = ExportedMesh {
+            first_index: vertices_only.first_index,
+            vertices: points.as_slice().to_vec(),
+            faces: hull_faces(&result.mesh),
+            tets: tets.clone(),
+            ..ExportedMesh::default()
+        };
+        save(Some(path), &mesh)?;
+    }
+    if !arguments.quiet {
+        say(&format!(
+            "{} distinct vertices ({duplicates} duplicates merged), {} tetrahedra",
+            distinct.len(),
+            tets.len()
+        ));
+    }
+    Ok(())
+}
+
+/// The triangles of the convex hull, seen from outside.
+fn hull_faces(mesh: &TetMesh) -> Vec<ExportedFace> {
+    let ghosts = mesh
+        .all()
+        .filter_map(|t| Some(t.corner(mesh.slot_of(t, VertexId::INFINITE)?)));
+    ghosts
+        .map(|c| ExportedFace {
+            vertices: mesh.facet(mesh.twin(c)),
+            marker: 0,
+        })
+        .collect()
+}
