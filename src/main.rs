@@ -5,6 +5,7 @@ mod cli;
 use clap::{Parser, Subcommand};
 use cli::delaunay::{DelaunayArguments, delaunay_of_file};
 use cli::mesh::{MeshArguments, mesh};
+use cli::survey::{SurveyArguments, survey};
 use cli::verify::{VerifyArguments, verify_files};
 use std::io::Write;
 use std::process::ExitCode;
@@ -27,6 +28,8 @@ enum Command {
     Verify(VerifyArguments),
     /// Make the Delaunay tetrahedralization of the vertices of a file, ignoring its facets.
     Delaunay(DelaunayArguments),
+    /// Make meshes of a whole collection, each by several methods, and a table of what came of it.
+    Survey(SurveyArguments),
 }
 
 fn main() -> ExitCode {
@@ -34,6 +37,7 @@ fn main() -> ExitCode {
         Command::Mesh(arguments) => mesh(&arguments),
         Command::Verify(arguments) => verify_files(&arguments),
         Command::Delaunay(arguments) => delaunay_of_file(&arguments),
+        Command::Survey(arguments) => survey(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
