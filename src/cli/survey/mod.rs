@@ -208,8 +208,8 @@ fn plan<'a>(list: &'a [Model], methods: &[Method], table: &Table) -> Vec<Vec<(&'
 }
 
 /// Runs everything, `jobs` models at a time; `record` gets each run when it is done. After an error no run is begun.
-fn execute<'a>(
-    plan: &[Vec<(&'a Model, Method)>],
+fn execute(
+    plan: &[Vec<(&Model, Method)>],
     jobs: usize,
     settings: &Settings,
     mut record: impl FnMut(&Run) -> Result<(), Stop>,

@@ -109,7 +109,7 @@ fn aligned(table: &[Vec<String>]) -> String {
 /// Our failures that are no statement about the input, unless another run made one.
 fn failures<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
     let is_none = |row: &&Row| row.is_ours() && NO_MODEL.contains(&row.get("outcome"));
-    if rows.iter().any(|row| is_none(row)) {
+    if rows.iter().any(is_none) {
         return Vec::new();
     }
     let failed = |row: &&Row| row.is_ours() && row.get("outcome") != "ok";
@@ -119,7 +119,7 @@ fn failures<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
 /// Our statements that there is no mesh, where there is one.
 fn contradictions<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
     let made = |row: &&Row| row.get("outcome") == "ok" && row.get("verified") == "yes";
-    if !rows.iter().any(|row| made(row)) {
+    if !rows.iter().any(made) {
         return Vec::new();
     }
     let denied = |row: &&Row| row.is_ours() && NO_MODEL.contains(&row.get("outcome"));
