@@ -3,6 +3,7 @@
 mod cli;
 
 use clap::{Parser, Subcommand};
+use cli::check::{CheckArguments, check_file};
 use cli::delaunay::{DelaunayArguments, delaunay_of_file};
 use cli::mesh::{MeshArguments, mesh};
 use cli::survey::{SurveyArguments, survey};
@@ -24,6 +25,8 @@ struct Arguments {
 enum Command {
     /// Make the CDT of a PLC.
     Mesh(MeshArguments),
+    /// Find out why an input is no valid PLC: all facets that are wrong, all pairs that intersect.
+    Check(CheckArguments),
     /// Check a mesh, whoever wrote it, against its PLC, in exact arithmetic.
     Verify(VerifyArguments),
     /// Make the Delaunay tetrahedralization of the vertices of a file, ignoring its facets.
@@ -35,6 +38,7 @@ enum Command {
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Mesh(arguments) => mesh(&arguments),
+        Command::Check(arguments) => check_file(&arguments),
         Command::Verify(arguments) => verify_files(&arguments),
         Command::Delaunay(arguments) => delaunay_of_file(&arguments),
         Command::Survey(arguments) => survey(&arguments),

@@ -4,6 +4,7 @@
 //! linear in the file's size whatever its header says, and check the syntax alone; [`crate::plc::Complex::new`] checks
 //! the geometry.
 
+mod conflicts_vtu;
 mod error;
 mod mesh_error;
 mod mesh_file;
@@ -15,6 +16,7 @@ mod tetgen_mesh;
 mod text;
 mod vtu;
 
+pub use conflicts_vtu::write_conflicts;
 pub use error::{FormatError, Place, Reason};
 pub use mesh_error::{MeshFileError, MeshLineError, UnwritableMesh};
 pub use mesh_file::{mesh_paths, read_mesh, write_mesh};
