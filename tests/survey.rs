@@ -176,6 +176,36 @@ fn every_outcome_is_a_row() {
 }
 
 #[test]
+fn the_check_is_a_method_without_a_mesh() {
+    let place = Place::new();
+    let said = place.surveys(&["models", "-o", "t.csv", "--methods=check,flip"]);
+    let checks: BTreeMap<String, Row> = place
+        .rows("t.csv")
+        .into_iter()
+        .filter(|row| row["insertion"] == "check")
+        .map(|row| (row["file"].clone(), row))
+        .collect();
+    assert_eq!(checks.len(), 6);
+    for (file, outcome) in [
+        ("good/rooms.poly", "ok"),
+        ("good/cube.OFF", "ok"),
+        ("bad/crossing.off", "invalid"),
+        ("bad/malformed.stl", "unreadable"),
+    ] {
+        let row = &checks[file];
+        assert_eq!(row["outcome"], outcome, "{row:?}");
+        for column in ["steiner", "equal", "verified", "tetrahedra", "mesh_hash"] {
+            assert_eq!(row[column], "", "{column}");
+        }
+        let wrong = outcome == "invalid";
+        assert_eq!(row["violations"] != "0", wrong, "{row:?}");
+        assert_eq!(row["defects"].is_empty(), !wrong, "{row:?}");
+    }
+    // Methods and check agree: nothing to look at.
+    assert_eq!(said.lines().count(), 3, "{said}");
+}
+
+#[test]
 fn limits_end_one_run_and_not_the_survey() {
     let place = Place::new();
     std::fs::write(place.path("models/large.off"), crowd(30)).expect("a file");

@@ -1,4 +1,4 @@
-//! What makes a mesh in a survey: one of our algorithms with its number type, or TetGen.
+//! What a run of a survey does: one of our algorithms with its number type, TetGen, or the check of the input.
 
 use clap::ValueEnum;
 use std::fmt;
@@ -8,6 +8,8 @@ use tetflip::recover::polygons::{Insertion, Times};
 /// An algorithm; the same word names it on the command line and in messages.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Algorithm {
+    /// No mesh: whether the input is a valid PLC at all (`check`).
+    Check,
     /// One of ours.
     Ours(Insertion),
     /// TetGen, which inserts facets by cavities (`tetgen`).
@@ -28,13 +30,14 @@ impl Algorithm {
 
     /// Whether this is another program.
     pub(super) fn is_foreign(self) -> bool {
-        !matches!(self, Algorithm::Ours(_))
+        matches!(self, Algorithm::TetgenCavity | Algorithm::TetgenFlip)
     }
 }
 
 impl fmt::Display for Algorithm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Algorithm::Check => f.write_str("check"),
             Algorithm::Ours(Insertion::Cavity) => f.write_str("cavity"),
             Algorithm::Ours(Insertion::GiftWrap) => f.write_str("gift-wrap"),
             Algorithm::Ours(Insertion::Flip(times)) => write!(f, "flip:{times}"),
@@ -54,6 +57,7 @@ impl FromStr for Algorithm {
                     .parse::<Times>()
                     .map_err(|unknown| unknown.to_string())?,
             )),
+            None if word == "check" => Algorithm::Check,
             None if word == "cavity" => Algorithm::Ours(Insertion::Cavity),
             None if word == "gift-wrap" => Algorithm::Ours(Insertion::GiftWrap),
             None if word == "flip" => Algorithm::Ours(Insertion::Flip(Times::Filtered)),
@@ -61,7 +65,7 @@ impl FromStr for Algorithm {
             None if word == "tetgen-flip" => Algorithm::TetgenFlip,
             _ => {
                 return Err(
-                    "no method; there are cavity, gift-wrap, flip:TYPE, tetgen and tetgen-flip"
+                    "no method; there are check, cavity, gift-wrap, flip:TYPE, tetgen and tetgen-flip"
                         .to_owned(),
                 );
             }
@@ -97,13 +101,11 @@ impl Method {
     /// The words of the columns `insertion`, `times` and `steiner`, which tell the rows of a model apart.
     pub(super) fn columns(self) -> [String; 3] {
         let [insertion, times] = self.algorithm.columns();
-        [insertion, times, self.steiner.to_string()]
-    }
-}
-
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.algorithm, self.steiner)
+        let steiner = match self.algorithm {
+            Algorithm::Check => String::new(),
+            _ => self.steiner.to_string(),
+        };
+        [insertion, times, steiner]
     }
 }
 
@@ -114,6 +116,7 @@ mod tests {
     #[test]
     fn the_word_of_an_algorithm_names_it() {
         for word in [
+            "check",
             "cavity",
             "gift-wrap",
             "flip:filtered",

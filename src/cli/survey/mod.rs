@@ -36,7 +36,8 @@ pub(crate) struct SurveyArguments {
     /// The table, as CSV: a row for each model and method. If it is there, only the rows that it lacks are made.
     #[arg(short, long, required_unless_present = "worker")]
     output: Option<PathBuf>,
-    /// How polygons are inserted: cavity, gift-wrap, flip:TYPE with a TYPE of `mesh --times`.
+    /// What is done with each model: `check`, which finds all that is wrong with the input; and meshes by cavity,
+    /// gift-wrap, or flip:TYPE with a TYPE of `mesh --times`.
     #[arg(
         long,
         value_delimiter = ',',
@@ -183,7 +184,12 @@ fn methods(arguments: &SurveyArguments) -> Vec<Method> {
     let (foreign, ours): (Vec<Algorithm>, Vec<Algorithm>) =
         arguments.methods.iter().partition(|a| a.is_foreign());
     for algorithm in ours {
-        for &steiner in &arguments.steiner {
+        // Whether the input is valid has nothing to do with Steiner points.
+        let steiner = match algorithm {
+            Algorithm::Check => &[Steiner::Rounded],
+            _ => &arguments.steiner[..],
+        };
+        for &steiner in steiner {
             add(algorithm, steiner);
         }
     }

@@ -25,20 +25,41 @@ const NO_MODEL: [&str; 4] = ["open", "invalid", "degenerate", "unreadable"];
 pub(super) fn summary(rows: &[Row]) -> String {
     let mut text = outcomes(rows);
     let models = by_model(rows);
+    let of = |choose: for<'a> fn(&[&'a Row]) -> Vec<&'a Row>| -> Vec<&Row> {
+        models.values().flat_map(|rows| choose(rows)).collect()
+    };
+    section(
+        &mut text,
+        "failures on valid input",
+        of(|rows| {
+            if is_valid(rows) {
+                failures(rows)
+            } else {
+                Vec::new()
+            }
+        }),
+    );
     section(
         &mut text,
         "failures on input that nothing shows to be invalid",
-        models.values().flat_map(|rows| failures(rows)),
+        of(|rows| {
+            if is_valid(rows) {
+                Vec::new()
+            } else {
+                failures(rows)
+            }
+        }),
     );
     section(
         &mut text,
-        "failures where another method made a verified mesh",
-        models.values().flat_map(|rows| contradictions(rows)),
+        "statements that the input is wrong, where another method says or shows that it is not",
+        of(contradictions),
     );
+    let other = rows.iter().filter(|row| row.get("equal") == "no");
     section(
         &mut text,
         "other tetrahedra than the first method's",
-        rows.iter().filter(|row| row.get("equal") == "no"),
+        other.collect(),
     );
     text
 }
@@ -106,29 +127,38 @@ fn aligned(table: &[Vec<String>]) -> String {
     text
 }
 
+/// Whether the check of the input found nothing.
+fn is_valid(rows: &[&Row]) -> bool {
+    let check = rows.iter().find(|row| row.get("insertion") == "check");
+    check.is_some_and(|row| row.get("outcome") == "ok")
+}
+
+/// Whether one of our runs says that there can be no mesh.
+fn denies(row: &&&Row) -> bool {
+    row.is_ours() && NO_MODEL.contains(&row.get("outcome"))
+}
+
 /// Our failures that are no statement about the input, unless another run made one.
 fn failures<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
-    let is_none = |row: &&Row| row.is_ours() && NO_MODEL.contains(&row.get("outcome"));
-    if rows.iter().any(is_none) {
+    if rows.iter().any(|row| denies(&row)) {
         return Vec::new();
     }
     let failed = |row: &&Row| row.is_ours() && row.get("outcome") != "ok";
     rows.iter().copied().filter(failed).collect()
 }
 
-/// Our statements that there is no mesh, where there is one.
+/// Our statements that there is no mesh, where there is one, or where the check found nothing that would be in its way.
 fn contradictions<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
-    let made = |row: &&Row| row.get("outcome") == "ok" && row.get("verified") == "yes";
-    if !rows.iter().any(made) {
-        return Vec::new();
-    }
-    let denied = |row: &&Row| row.is_ours() && NO_MODEL.contains(&row.get("outcome"));
-    rows.iter().copied().filter(denied).collect()
+    let made = rows.iter().any(|row| row.get("verified") == "yes");
+    let valid = is_valid(rows);
+    let denials = rows.iter().filter(denies).copied();
+    denials
+        .filter(|row| made || (valid && row.get("outcome") == "invalid"))
+        .collect()
 }
 
-fn section<'a>(text: &mut String, heading: &str, rows: impl Iterator<Item = &'a Row>) {
-    let mut rows = rows.peekable();
-    if rows.peek().is_none() {
+fn section(text: &mut String, heading: &str, rows: Vec<&Row>) {
+    if rows.is_empty() {
         return;
     }
     *text += &format!("\n{heading}:\n");

@@ -98,7 +98,8 @@ impl Row {
         let times = self.get("times");
         let colon = if times.is_empty() { "" } else { ":" };
         let [insertion, steiner] = ["insertion", "steiner"].map(|c| self.get(c));
-        format!("{insertion}{colon}{times} {steiner}")
+        let space = if steiner.is_empty() { "" } else { " " };
+        format!("{insertion}{colon}{times}{space}{steiner}")
     }
 }
 

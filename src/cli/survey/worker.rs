@@ -1,4 +1,4 @@
-//! The process of one run: reads a model, makes a mesh of it, verifies it, and says on its standard output, a JSON value
+//! The process of one run: reads a model, checks it or makes a mesh of it and verifies that, and says on its standard output, a JSON value
 //! a line, how far it is and what came of it. Whatever happens to it, happens to this run alone.
 //!
 //! Its standard input is the line to its master: when that closes, because time is over or the master is gone, it ends.
@@ -8,6 +8,7 @@ use super::method::{Algorithm, Steiner};
 use super::models::fnv1a;
 use super::tetgen::{Tetgen, run_tetgen};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 use std::io::{self, Read, Write as _};
 use std::path::Path;
@@ -15,6 +16,7 @@ use std::process::Child;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 use tetflip::cdt::{Options, tetrahedralize};
+use tetflip::check::check;
 use tetflip::error::{Failure, GaveUp};
 use tetflip::format::{FormatError, read_plc};
 use tetflip::mesh::ExportedMesh;
@@ -25,6 +27,8 @@ use tetflip::verify::{Domain, Verdict, VerifyOptions, verify};
 
 /// From where on TetGen takes facets for coplanar, in degrees.
 const MERGE_ANGLE: f64 = 179.9;
+/// After how many intersections of the input the search for more ends.
+const CONFLICTS: usize = 1000;
 /// How many violations are written out.
 const SHOWN: usize = 3;
 
@@ -119,8 +123,18 @@ pub(super) fn work(model: &Path, job: &Job) {
     findings.seconds_read = start.elapsed().as_secs_f64();
     findings.vertices = Some(plc.vertices.len());
     findings.facets = Some(plc.facets.len());
-    send(&Line::Stage("meshing".to_owned()));
+    send(&Line::Stage(
+        match job.algorithm {
+            Algorithm::Check => "checking",
+            _ => "meshing",
+        }
+        .to_owned(),
+    ));
     let mesh = match job.algorithm {
+        Algorithm::Check => {
+            check_input(&plc, &mut findings);
+            None
+        }
         Algorithm::Ours(insertion) => ours(&plc, insertion, job, &mut findings),
         Algorithm::TetgenCavity | Algorithm::TetgenFlip => {
             let tetgen = Tetgen {
@@ -213,6 +227,35 @@ fn ours(
             None
         }
     }
+}
+
+/// Finds the intersections of the input: the first is the message, all are counted, up to [`CONFLICTS`].
+fn check_input(plc: &Plc, findings: &mut Findings) {
+    let start = Instant::now();
+    let found = check(plc, Some(CONFLICTS));
+    findings.seconds_mesh = start.elapsed().as_secs_f64();
+    findings.violations = found.errors.len() + found.conflicts.len();
+    let first_error = found.errors.first().map(|e| (variant(e), e.to_string()));
+    let first_conflict = || {
+        let conflict = found.conflicts.first()?;
+        Some((variant(&conflict.kind), conflict.describe(plc)))
+    };
+    match first_error.or_else(first_conflict) {
+        Some((kind, message)) => findings.ends("invalid", kind, message),
+        None => findings.ends("ok", "", ""),
+    }
+    let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
+    let errors = found.errors.iter().map(variant);
+    for kind in errors.chain(found.conflicts.iter().map(|c| variant(&c.kind))) {
+        *kinds.entry(kind).or_default() += 1;
+    }
+    findings.defects = list(kinds);
+}
+
+/// Each kind with its number.
+fn list(kinds: impl IntoIterator<Item = (impl fmt::Display, usize)>) -> String {
+    let kinds = kinds.into_iter().map(|(kind, n)| format!("{kind}: {n}"));
+    kinds.collect::<Vec<_>>().join("; ")
 }
 
 fn describe(mesh: &ExportedMesh, plc: &Plc, findings: &mut Findings) {
