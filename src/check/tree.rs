@@ -3,7 +3,8 @@
 //! A k-d tree of cells, built and left in one traversal: a cell with many simplices is cut in two at the median of their
 //! centres, and a simplex goes to both halves only if it reaches into both. Of long simplices, which a bounding box
 //! describes badly, that is decided by separating axes (Akenine-Möller, *Fast 3D triangle-box overlap testing*, 2001) in
-//! doubles with a margin for their rounding, so that no simplex is lost.
+//! doubles with a margin for their rounding, so that no simplex is lost. Where no cut across a coordinate axis helps,
+//! because long simplices run side by side in another direction, a cut along that direction is tried.
 //!
 //! Only pairs without a common vertex are wanted. Where all simplices of a cell share a vertex there are none, so that a
 //! fan of any number of triangles costs nothing at its apex.
@@ -108,6 +109,14 @@ impl<'a> Simplices<'a> {
             self.divide(&cells[0], left, depth - 1, visit)?;
             return self.divide(&cells[1], right, depth - 1, visit);
         }
+        for direction in self.across_longest(&list) {
+            let Some([left, right]) = self.cut_across(&list, direction) else {
+                continue;
+            };
+            std::mem::drop(list);
+            self.divide(&tight, left, depth - 1, visit)?;
+            return self.divide(&tight, right, depth - 1, visit);
+        }
         self.compare(&list, visit)
     }
 
@@ -162,9 +171,59 @@ impl<'a> Simplices<'a> {
                 halves[1].push(i);
             }
         }
-        let square = |n: usize| (n as f64).powi(2);
-        let pairs = square(halves[0].len()) + square(halves[1].len());
-        (pairs <= PROGRESS * square(list.len())).then_some(([low, high], halves))
+        helps(list, &halves).then_some(([low, high], halves))
+    }
+
+    /// Two directions at right angles to the longest edge in a list, approximately.
+    fn across_longest(&self, list: &[u32]) -> Vec<Point> {
+        let mut longest = (0.0, [0.0; 3]);
+        for &i in list {
+            let [a, b, c] = self.corners[i as usize].map(|v| self.points[v.index()]);
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                let edge = [0, 1, 2].map(|k| 0.5 * q[k] - 0.5 * p[k]);
+                let length = edge.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+                if length > longest.0 {
+                    longest = (length, edge);
+                }
+            }
+        }
+        let (length, edge) = longest;
+        if length == 0.0 {
+            return Vec::new();
+        }
+        let e = edge.map(|x| x / length);
+        let least = (0..3).min_by(|&j, &k| e[j].abs().total_cmp(&e[k].abs()));
+        let mut axis = [0.0; 3];
+        axis[least.expect("three axes")] = 1.0;
+        let first = cross(e, axis);
+        vec![first, cross(e, first)]
+    }
+
+    /// Cuts a list across any direction; `None` if that would not help. The length of the direction is about 1.
+    fn cut_across(&self, list: &[u32], direction: Point) -> Option<[Vec<u32>; 2]> {
+        // The range of a simplex along the direction, widened by what it can be wrong by.
+        let range = |&i: &u32| {
+            let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+            for v in self.corners[i as usize] {
+                let p = self.points[v.index()];
+                let terms = [0, 1, 2].map(|k| 0.25 * direction[k] * p[k]);
+                let at: f64 = terms.iter().sum();
+                let wrong = 8.0 * f64::EPSILON * terms.iter().map(|x| x.abs()).sum::<f64>()
+                    + f64::MIN_POSITIVE;
+                range = (range.0.min(at - wrong), range.1.max(at + wrong));
+            }
+            range
+        };
+        let ranges: Vec<(f64, f64)> = list.iter().map(range).collect();
+        let mut centres: Vec<f64> = ranges.iter().map(|r| 0.5 * r.0 + 0.5 * r.1).collect();
+        let middle = centres.len() / 2;
+        let at = *centres.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let side = |keep: &dyn Fn(&(f64, f64)) -> bool| -> Vec<u32> {
+            let kept = list.iter().zip(&ranges).filter(|(_, r)| keep(r));
+            kept.map(|(&i, _)| i).collect()
+        };
+        let halves = [side(&|r| r.0 <= at), side(&|r| r.1 >= at)];
+        helps(list, &halves).then_some(halves)
     }
 
     /// Whether a simplex may have a point in a cell. Never wrongly no.
@@ -227,6 +286,16 @@ impl<'a> Simplices<'a> {
             .max_by_key(|&(v, n)| (n, std::cmp::Reverse(v)));
         best.expect("a simplex has vertices").0
     }
+}
+
+/// Whether a cut leaves clearly fewer pairs.
+fn helps(list: &[u32], halves: &[Vec<u32>; 2]) -> bool {
+    let square = |n: usize| (n as f64).powi(2);
+    square(halves[0].len()) + square(halves[1].len()) <= PROGRESS * square(list.len())
+}
+
+fn cross([a, b, c]: Point, [x, y, z]: Point) -> Point {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
 /// Whether one of the axes across an edge of the triangle and an edge of the box, or the normal of the triangle, certainly

@@ -79,7 +79,13 @@ pub(crate) fn orient2d(a: Point, b: Point, c: Point) -> Sign {
         let minus = |p: &[N; 2], k: usize| p[k].clone() - &a[k];
         minus(&b, 0) * &minus(&c, 1) - &(minus(&b, 1) * &minus(&c, 0))
     }
-    filtered(value::<Approx>([a, b, c]), || value([a, b, c]))
+    filtered(value::<Approx>([a, b, c]), || {
+        // Points on a line across a coordinate axis are common in planes across one, and need no arithmetic.
+        if (0..2).any(|k| a[k] == b[k] && b[k] == c[k]) {
+            return Dyadic::ZERO;
+        }
+        value([a, b, c])
+    })
 }
 
 /// The sign of det[b−a, c−a, d−a].
