@@ -14,6 +14,7 @@ use crate::predicate::{DoublePoints, PointStore, Steiner};
 use crate::recover::cavity::face;
 use crate::recover::deletion::{DeletionCounts, PolygonDeletion};
 use crate::recover::domain::{DomainMarks, keeps_edge, mark_domain};
+use crate::recover::embedding::check_embedding;
 use crate::recover::flips::Watch;
 use crate::recover::polygons::{
     Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons, Times,
@@ -303,7 +304,8 @@ impl Cdt<DoublePoints> {
     /// an order that depends on their vertices alone, so that equal meshes give equal files.
     ///
     /// # Errors
-    /// [`GaveUp::NothingInside`] if nothing would be left.
+    /// [`InvalidPlc`](crate::error::InvalidPlc) if polygons of the input overlap, or have something inside that they do not
+    /// declare; [`GaveUp::NothingInside`] if nothing would be left.
     pub fn export(
         &mut self,
         plc: &Plc,
@@ -311,6 +313,13 @@ impl Cdt<DoublePoints> {
         report: &mut Report,
     ) -> Result<ExportedMesh, Failure> {
         report.time(Phase::Domain, |report| {
+            check_embedding(
+                &self.complex,
+                &self.subsegments,
+                &self.index,
+                &self.subpolygons,
+                &self.inserted,
+            )?;
             let marks = mark_domain(
                 plc,
                 &mut self.points,

@@ -28,6 +28,7 @@
 //! ```
 
 pub mod cdt;
+pub mod check;
 pub mod delaunay;
 pub mod error;
 pub mod format;

@@ -3,8 +3,10 @@
 mod cli;
 
 use clap::{Parser, Subcommand};
+use cli::check::{CheckArguments, check_file};
 use cli::delaunay::{DelaunayArguments, delaunay_of_file};
 use cli::mesh::{MeshArguments, mesh};
+use cli::survey::{SurveyArguments, survey};
 use cli::verify::{VerifyArguments, verify_files};
 use std::io::Write;
 use std::process::ExitCode;
@@ -23,17 +25,23 @@ struct Arguments {
 enum Command {
     /// Make the CDT of a PLC.
     Mesh(MeshArguments),
+    /// Find out why an input is no valid PLC: all facets that are wrong, all pairs that intersect.
+    Check(CheckArguments),
     /// Check a mesh, whoever wrote it, against its PLC, in exact arithmetic.
     Verify(VerifyArguments),
     /// Make the Delaunay tetrahedralization of the vertices of a file, ignoring its facets.
     Delaunay(DelaunayArguments),
+    /// Make meshes of a whole collection, each by several methods, and a table of what came of it.
+    Survey(SurveyArguments),
 }
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Mesh(arguments) => mesh(&arguments),
+        Command::Check(arguments) => check_file(&arguments),
         Command::Verify(arguments) => verify_files(&arguments),
         Command::Delaunay(arguments) => delaunay_of_file(&arguments),
+        Command::Survey(arguments) => survey(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

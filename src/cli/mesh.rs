@@ -6,7 +6,8 @@ use serde::Serialize;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use tetflip::cdt::{Options, tetrahedralize};
-use tetflip::error::Failure;
+use tetflip::check::check;
+use tetflip::error::{Failure, GaveUp, InvalidPlc};
 use tetflip::format::{write_complete, write_poly};
 use tetflip::plc::Plc;
 use tetflip::recover::polygons::{Insertion, Times};
@@ -80,7 +81,7 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
     bar.finish_and_clear();
     let outcome = match &result {
         Ok(_) => "ok".to_owned(),
-        Err(failure) => failure.describe(&plc),
+        Err(failure) => failure.describe(&plc) + &explanation(arguments, &plc, failure),
     };
     if let Some(path) = &arguments.report {
         write_report(path, &arguments.input, &outcome, &report)?;
@@ -154,6 +155,40 @@ fn remove_old_region(arguments: &MeshArguments) -> Result<(), Stop> {
         }
         _ => Ok(()),
     }
+}
+
+/// What the check says of the input of a failed run: facets and vertices, where the failure is theirs.
+fn explanation(arguments: &MeshArguments, plc: &Plc, failure: &Failure) -> String {
+    /// How many findings are listed.
+    const LISTED: usize = 8;
+    // Other failures are not about facets that intersect.
+    match failure {
+        Failure::Invalid(
+            InvalidPlc::PointOnPolygon { .. } | InvalidPlc::RegionsDisagree { .. },
+        )
+        | Failure::GaveUp(GaveUp::NothingInside)
+        | Failure::Delaunay(_)
+        | Failure::NoSuchPolygon(_) => return String::new(),
+        Failure::Plc(_) | Failure::Invalid(_) | Failure::GaveUp(_) => {}
+    }
+    let findings = check(plc, Some(LISTED));
+    if findings.is_valid() {
+        return "\n(the input is a valid PLC: no facets intersect)".to_owned();
+    }
+    let told = failure.describe(plc);
+    let errors = findings.errors.iter().map(ToString::to_string);
+    let conflicts = findings.conflicts.iter().map(|c| c.describe(plc));
+    let others: Vec<String> = errors
+        .chain(conflicts)
+        .filter(|line| !told.ends_with(line))
+        .collect();
+    let listed = others.iter().take(LISTED);
+    let mut text: String = listed.map(|line| format!("\n{line}")).collect();
+    if others.len() > LISTED || findings.stopped {
+        text += "\n…";
+    }
+    let input = arguments.input.display();
+    text + &format!("\nfor all that is wrong: tetflip check {input}")
 }
 
 /// Writes the region of failed flips, and says where it is and how to try again.

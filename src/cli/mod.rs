@@ -1,7 +1,9 @@
 //! The subcommands, one module each, and what they share: reading, writing, and failures with exit statuses.
 
+pub(crate) mod check;
 pub(crate) mod delaunay;
 pub(crate) mod mesh;
+pub(crate) mod survey;
 pub(crate) mod verify;
 
 use std::io::Write;

@@ -6,6 +6,7 @@
 //! the geometry. What a reader accepts has at least one vertex, finite coordinates, and no corner out of range.
 
 mod bytes;
+mod conflicts_vtu;
 mod error;
 mod medit;
 mod mesh_error;
@@ -23,6 +24,7 @@ mod tetgen_mesh;
 mod text;
 mod vtu;
 
+pub use conflicts_vtu::write_conflicts;
 pub use error::{FormatError, Place, Reason};
 pub use medit::read_medit;
 pub use mesh_error::{MeshFileError, MeshLineError, UnwritableMesh};

@@ -77,7 +77,7 @@ pub(super) fn write(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> 
     writeln!(out, "</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
-fn array<T: Display, const N: usize>(
+pub(super) fn array<T: Display, const N: usize>(
     out: &mut dyn Write,
     attributes: &str,
     values: impl Iterator<Item = [T; N]>,
@@ -87,11 +87,11 @@ fn array<T: Display, const N: usize>(
     close(out)
 }
 
-fn open(out: &mut dyn Write, attributes: &str) -> io::Result<()> {
+pub(super) fn open(out: &mut dyn Write, attributes: &str) -> io::Result<()> {
     writeln!(out, r#"<DataArray {attributes} format="ascii">"#)
 }
 
-fn rows<T: Display, const N: usize>(
+pub(super) fn rows<T: Display, const N: usize>(
     out: &mut dyn Write,
     values: impl Iterator<Item = [T; N]>,
 ) -> io::Result<()> {
@@ -105,7 +105,7 @@ fn rows<T: Display, const N: usize>(
     Ok(())
 }
 
-fn close(out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn close(out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "</DataArray>")
 }
 

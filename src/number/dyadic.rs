@@ -36,6 +36,19 @@ impl Dyadic {
         }
     }
 
+    /// self/other rounded to one of the two doubles next to it;
+    /// infinite or zero outside the range of doubles. `other` is not zero.
+    pub fn quotient(&self, other: &Dyadic) -> f64 {
+        use dashu_int::ops::BitTest;
+        let bits = |x: &IBig| x.bit_len() as i64;
+        let shift = (bits(&other.mantissa) - bits(&self.mantissa) + 70).max(0);
+        let quotient = Dyadic {
+            mantissa: (&self.mantissa << shift as usize) / &other.mantissa,
+            exponent: self.exponent - other.exponent - shift,
+        };
+        quotient.to_f64()
+    }
+
     fn is_zero(&self) -> bool {
         self.mantissa == IBig::ZERO
     }

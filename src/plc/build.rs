@@ -80,7 +80,7 @@ fn check_points(plc: &Plc) -> Result<(), PlcError> {
 }
 
 /// The first vertex with the coordinates of each one, where −0 = 0.
-fn representatives(vertices: &[[f64; 3]]) -> Vec<VertexId> {
+pub(crate) fn representatives(vertices: &[[f64; 3]]) -> Vec<VertexId> {
     let mut first = FxHashMap::default();
     let ids = vertices.iter().enumerate().map(|(i, point)| {
         let key = point.map(|x| (x + 0.0).to_bits());

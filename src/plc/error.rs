@@ -224,3 +224,27 @@ pub enum PlcError {
         edge: EdgeName,
     },
 }
+
+impl PlcError {
+    /// The facets in question, by their indices.
+    pub fn facets(&self) -> Vec<usize> {
+        match self {
+            PlcError::VertexNotFinite { .. }
+            | PlcError::PointNotFinite { .. }
+            | PlcError::NoSuchSegmentEnd { .. }
+            | PlcError::DegenerateSegment { .. } => Vec::new(),
+            PlcError::NoSuchVertex { facet, .. }
+            | PlcError::Empty { facet }
+            | PlcError::RepeatedVertex { facet, .. }
+            | PlcError::TooFewVertices { facet }
+            | PlcError::ZeroArea { facet }
+            | PlcError::NothingLeft { facet }
+            | PlcError::HoleOnEdge { facet, .. }
+            | PlcError::NotPlanar { facet, .. }
+            | PlcError::EdgesCross { facet, .. }
+            | PlcError::VertexOnEdge { facet, .. } => vec![facet.index],
+            PlcError::SameFacet { first, second }
+            | PlcError::FacetsOverlap { first, second, .. } => vec![first.index, second.index],
+        }
+    }
+}

@@ -13,7 +13,7 @@ use crate::mesh::VertexId;
 use crate::number::Sign;
 
 /// The polygons of a facet after duplicate vertices have been merged.
-pub(super) struct FacetInput<'a> {
+pub(crate) struct FacetInput<'a> {
     /// The whole input.
     pub plc: &'a Plc,
     /// The facet's index.
@@ -267,12 +267,12 @@ fn oriented([a, b, c]: [VertexId; 3], sign: Sign, wanted: Sign) -> [VertexId; 3]
 }
 
 /// The ends in increasing order.
-pub(super) fn undirected([a, b]: [VertexId; 2]) -> [VertexId; 2] {
+pub(crate) fn undirected([a, b]: [VertexId; 2]) -> [VertexId; 2] {
     [a.min(b), a.max(b)]
 }
 
 /// Sorted, without repetitions.
-pub(super) fn sorted(mut vertices: Vec<VertexId>) -> Vec<VertexId> {
+pub(crate) fn sorted(mut vertices: Vec<VertexId>) -> Vec<VertexId> {
     vertices.sort_unstable();
     vertices.dedup();
     vertices

@@ -6,11 +6,11 @@ use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::formula;
 
 /// A point of the projection plane.
-pub(super) type Point = [f64; 2];
+pub(crate) type Point = [f64; 2];
 
 /// The projection along a coordinate axis.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Projection {
+pub(crate) struct Projection {
     axis: usize,
 }
 
@@ -45,7 +45,7 @@ impl Projection {
 
 /// The vertices in a projection.
 #[derive(Clone, Copy)]
-pub(super) struct Projected<'a> {
+pub(crate) struct Projected<'a> {
     /// The coordinates in space.
     pub points: &'a [[f64; 3]],
     /// The projection.
@@ -65,7 +65,7 @@ impl Projected<'_> {
 }
 
 /// Whether three points of space are collinear.
-pub(super) fn collinear(points: [[f64; 3]; 3]) -> bool {
+pub(crate) fn collinear(points: [[f64; 3]; 3]) -> bool {
     [0, 1, 2].iter().all(|&axis| {
         let [a, b, c] = points.map(|p| Projection { axis }.point(p));
         orient2d(a, b, c).is_zero()
@@ -73,17 +73,23 @@ pub(super) fn collinear(points: [[f64; 3]; 3]) -> bool {
 }
 
 /// The sign of det[b−a, c−a]: positive iff abc turns counterclockwise.
-pub(super) fn orient2d(a: Point, b: Point, c: Point) -> Sign {
+pub(crate) fn orient2d(a: Point, b: Point, c: Point) -> Sign {
     fn value<N: Number>(points: [Point; 3]) -> N {
         let [a, b, c] = points.map(|p| p.map(N::from_f64));
         let minus = |p: &[N; 2], k: usize| p[k].clone() - &a[k];
         minus(&b, 0) * &minus(&c, 1) - &(minus(&b, 1) * &minus(&c, 0))
     }
-    filtered(value::<Approx>([a, b, c]), || value([a, b, c]))
+    filtered(value::<Approx>([a, b, c]), || {
+        // Points on a line across a coordinate axis are common in planes across one, and need no arithmetic.
+        if (0..2).any(|k| a[k] == b[k] && b[k] == c[k]) {
+            return Dyadic::ZERO;
+        }
+        value([a, b, c])
+    })
 }
 
 /// The sign of det[b−a, c−a, d−a].
-pub(super) fn orient3d(points: [[f64; 3]; 4]) -> Sign {
+pub(crate) fn orient3d(points: [[f64; 3]; 4]) -> Sign {
     // The commonest coplanar points, without arithmetic: all in one plane across a coordinate axis.
     if (0..3).any(|k| points.iter().all(|p| p[k] == points[0][k])) {
         return Sign::Zero;
@@ -95,7 +101,7 @@ pub(super) fn orient3d(points: [[f64; 3]; 4]) -> Sign {
 }
 
 /// The sign of the area enclosed by a closed walk: Σ det[p_i − p_0, p_{i+1} − p_0].
-pub(super) fn area_sign(walk: &[Point]) -> Sign {
+pub(crate) fn area_sign(walk: &[Point]) -> Sign {
     fn value<N: Number>(walk: &[Point]) -> N {
         let number = |p: &Point| p.map(N::from_f64);
         let origin = number(&walk[0]);
@@ -117,12 +123,12 @@ pub(super) fn area_sign(walk: &[Point]) -> Sign {
 }
 
 /// Whether p is on the closed segment ab.
-pub(super) fn on_segment(p: Point, a: Point, b: Point) -> bool {
+pub(crate) fn on_segment(p: Point, a: Point, b: Point) -> bool {
     in_box(p, a, b) && orient2d(a, b, p).is_zero()
 }
 
 /// Whether p is in the bounding box of a and b.
-pub(super) fn in_box(p: Point, a: Point, b: Point) -> bool {
+pub(crate) fn in_box(p: Point, a: Point, b: Point) -> bool {
     (0..2).all(|k| a[k].min(b[k]) <= p[k] && p[k] <= a[k].max(b[k]))
 }
 

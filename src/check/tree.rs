@@ -1,0 +1,340 @@
+//! The broad phase: pairs of simplices (vertices, edges, triangles) that may touch, found by dividing space.
+//!
+//! A k-d tree of cells, built and left in one traversal: a cell with many simplices is cut in two at the median of their
+//! centres, and a simplex goes to both halves only if it reaches into both. Of long simplices, which a bounding box
+//! describes badly, that is decided by separating axes (Akenine-Möller, *Fast 3D triangle-box overlap testing*, 2001) in
+//! doubles with a margin for their rounding, so that no simplex is lost. Where no cut across a coordinate axis helps,
+//! because long simplices run side by side in another direction, a cut along that direction is tried.
+//!
+//! Only pairs without a common vertex are wanted. Where all simplices of a cell share a vertex there are none, so that a
+//! fan of any number of triangles costs nothing at its apex.
+//!
+//! O(n log n) for n simplices of bounded overlap. Where cutting does not help, all pairs of the cell are tried, except those
+//! within the simplices that share the commonest vertex.
+
+use crate::mesh::VertexId;
+use rustc_hash::FxHashMap;
+use std::ops::ControlFlow;
+
+type Point = [f64; 3];
+
+/// Cells with no more simplices are not cut.
+const SMALL: usize = 24;
+/// An upper bound on the depth, which is about log2 of the number of simplices.
+const DEEPEST: usize = 64;
+/// A cut must leave at most this part of the pairs.
+const PROGRESS: f64 = 0.85;
+
+/// The corners of a simplex; of an edge or a vertex the last is repeated.
+pub(super) type Corners = [VertexId; 3];
+
+/// Simplices in space.
+pub(super) struct Simplices<'a> {
+    points: &'a [Point],
+    corners: &'a [Corners],
+    boxes: Vec<Bounds>,
+    /// The first edge and the first triangle; vertices come before, so that dimensions are in order.
+    starts: [usize; 2],
+}
+
+/// An axis-parallel box.
+#[derive(Clone, Copy)]
+struct Bounds {
+    low: Point,
+    high: Point,
+}
+
+impl Bounds {
+    fn overlaps(&self, other: &Bounds) -> bool {
+        (0..3).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
+    }
+
+    fn intersection(&self, other: &Bounds) -> Bounds {
+        Bounds {
+            low: [0, 1, 2].map(|k| self.low[k].max(other.low[k])),
+            high: [0, 1, 2].map(|k| self.high[k].min(other.high[k])),
+        }
+    }
+}
+
+/// A pair of simplices by their indices, the one of lower dimension first.
+pub(super) type Visit<'v> = &'v mut dyn FnMut(usize, usize) -> ControlFlow<()>;
+
+impl<'a> Simplices<'a> {
+    /// `corners` holds vertices, then edges, then triangles, which begin at `starts`.
+    pub fn new(points: &'a [Point], corners: &'a [Corners], starts: [usize; 2]) -> Self {
+        let bounds = |corners: &Corners| {
+            let [a, b, c] = corners.map(|v| points[v.index()]);
+            Bounds {
+                low: [0, 1, 2].map(|k| a[k].min(b[k]).min(c[k])),
+                high: [0, 1, 2].map(|k| a[k].max(b[k]).max(c[k])),
+            }
+        };
+        Simplices {
+            points,
+            corners,
+            boxes: corners.iter().map(bounds).collect(),
+            starts,
+        }
+    }
+
+    /// Visits all pairs that have no common vertex and may have a common point: vertices with edges and triangles, edges
+    /// with edges and triangles. Some pairs are visited more than once.
+    pub fn pairs(&self, visit: Visit) -> ControlFlow<()> {
+        let all: Vec<u32> = (0..self.corners.len()).map(|i| i as u32).collect();
+        let cell = Bounds {
+            low: [f64::NEG_INFINITY; 3],
+            high: [f64::INFINITY; 3],
+        };
+        self.divide(&cell, all, DEEPEST, visit)
+    }
+
+    fn divide(&self, cell: &Bounds, list: Vec<u32>, depth: usize, visit: Visit) -> ControlFlow<()> {
+        if list.len() <= SMALL || depth == 0 {
+            return self.compare(&list, visit);
+        }
+        if self.is_fan(&list) {
+            return ControlFlow::Continue(());
+        }
+        let tight = self.tight(cell, &list);
+        let size = |k: usize| 0.5 * tight.high[k] - 0.5 * tight.low[k];
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&j, &k| size(k).total_cmp(&size(j)));
+        for axis in axes {
+            let Some((cells, halves)) = self.cut(&tight, &list, axis) else {
+                continue;
+            };
+            std::mem::drop(list);
+            let [left, right] = halves;
+            self.divide(&cells[0], left, depth - 1, visit)?;
+            return self.divide(&cells[1], right, depth - 1, visit);
+        }
+        for direction in self.across_longest(&list) {
+            let Some([left, right]) = self.cut_across(&list, direction) else {
+                continue;
+            };
+            std::mem::drop(list);
+            self.divide(&tight, left, depth - 1, visit)?;
+            return self.divide(&tight, right, depth - 1, visit);
+        }
+        self.compare(&list, visit)
+    }
+
+    /// Whether all simplices have one vertex in common.
+    fn is_fan(&self, list: &[u32]) -> bool {
+        let corners = |i: &u32| self.corners[*i as usize];
+        let common = |v: VertexId| list.iter().all(|i| corners(i).contains(&v));
+        corners(&list[0]).into_iter().any(common)
+    }
+
+    /// The part of a cell that its simplices can reach.
+    fn tight(&self, cell: &Bounds, list: &[u32]) -> Bounds {
+        let mut union = self.boxes[list[0] as usize];
+        for &i in list {
+            let b = &self.boxes[i as usize];
+            for k in 0..3 {
+                union.low[k] = union.low[k].min(b.low[k]);
+                union.high[k] = union.high[k].max(b.high[k]);
+            }
+        }
+        cell.intersection(&union)
+    }
+
+    /// Cuts a cell across an axis; `None` if that would not help.
+    fn cut(
+        &self,
+        cell: &Bounds,
+        list: &[u32],
+        axis: usize,
+    ) -> Option<([Bounds; 2], [Vec<u32>; 2])> {
+        /// More do not make the median much better.
+        const SAMPLE: usize = 256;
+        let centre = |&i: &u32| {
+            let b = self.boxes[i as usize].intersection(cell);
+            0.5 * b.low[axis] + 0.5 * b.high[axis]
+        };
+        let step = list.len().div_ceil(SAMPLE);
+        let mut sample: Vec<f64> = list.iter().step_by(step).map(centre).collect();
+        let middle = sample.len() / 2;
+        let at = *sample.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let (mut low, mut high) = (*cell, *cell);
+        low.high[axis] = at;
+        high.low[axis] = at;
+        let mut halves = [Vec::new(), Vec::new()];
+        for &i in list {
+            let b = &self.boxes[i as usize];
+            let both = b.low[axis] <= at && at <= b.high[axis];
+            if b.low[axis] <= at && (!both || self.reaches(i, &low)) {
+                halves[0].push(i);
+            }
+            if at <= b.high[axis] && (!both || self.reaches(i, &high)) {
+                halves[1].push(i);
+            }
+        }
+        helps(list, &halves).then_some(([low, high], halves))
+    }
+
+    /// Two directions at right angles to the longest edge in a list, approximately.
+    fn across_longest(&self, list: &[u32]) -> Vec<Point> {
+        let mut longest = (0.0, [0.0; 3]);
+        for &i in list {
+            let [a, b, c] = self.corners[i as usize].map(|v| self.points[v.index()]);
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                let edge = [0, 1, 2].map(|k| 0.5 * q[k] - 0.5 * p[k]);
+                let length = edge.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+                if length > longest.0 {
+                    longest = (length, edge);
+                }
+            }
+        }
+        let (length, edge) = longest;
+        if length == 0.0 {
+            return Vec::new();
+        }
+        let e = edge.map(|x| x / length);
+        let least = (0..3).min_by(|&j, &k| e[j].abs().total_cmp(&e[k].abs()));
+        let mut axis = [0.0; 3];
+        axis[least.expect("three axes")] = 1.0;
+        let first = cross(e, axis);
+        vec![first, cross(e, first)]
+    }
+
+    /// Cuts a list across any direction; `None` if that would not help. The length of the direction is about 1.
+    fn cut_across(&self, list: &[u32], direction: Point) -> Option<[Vec<u32>; 2]> {
+        // The range of a simplex along the direction, widened by what it can be wrong by.
+        let range = |&i: &u32| {
+            let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+            for v in self.corners[i as usize] {
+                let p = self.points[v.index()];
+                let terms = [0, 1, 2].map(|k| 0.25 * direction[k] * p[k]);
+                let at: f64 = terms.iter().sum();
+                let wrong = 8.0 * f64::EPSILON * terms.iter().map(|x| x.abs()).sum::<f64>()
+                    + f64::MIN_POSITIVE;
+                range = (range.0.min(at - wrong), range.1.max(at + wrong));
+            }
+            range
+        };
+        let ranges: Vec<(f64, f64)> = list.iter().map(range).collect();
+        let mut centres: Vec<f64> = ranges.iter().map(|r| 0.5 * r.0 + 0.5 * r.1).collect();
+        let middle = centres.len() / 2;
+        let at = *centres.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let side = |keep: &dyn Fn(&(f64, f64)) -> bool| -> Vec<u32> {
+            let kept = list.iter().zip(&ranges).filter(|(_, r)| keep(r));
+            kept.map(|(&i, _)| i).collect()
+        };
+        let halves = [side(&|r| r.0 <= at), side(&|r| r.1 >= at)];
+        helps(list, &halves).then_some(halves)
+    }
+
+    /// Whether a simplex may have a point in a cell. Never wrongly no.
+    fn reaches(&self, i: u32, cell: &Bounds) -> bool {
+        self.boxes[i as usize].overlaps(cell)
+            && !separated(
+                self.corners[i as usize].map(|v| self.points[v.index()]),
+                cell,
+            )
+    }
+
+    /// Visits the pairs of a list.
+    fn compare(&self, list: &[u32], visit: Visit) -> ControlFlow<()> {
+        if list.len() <= SMALL {
+            return self.compare_lists(list, list, true, visit);
+        }
+        let hub = self.commonest_vertex(list);
+        let at_hub = |i: &&u32| self.corners[**i as usize].contains(&hub);
+        let fan: Vec<u32> = list.iter().filter(at_hub).copied().collect();
+        let others: Vec<u32> = list.iter().filter(|i| !at_hub(i)).copied().collect();
+        self.compare_lists(&others, &others, true, visit)?;
+        self.compare_lists(&others, &fan, false, visit)
+    }
+
+    fn compare_lists(
+        &self,
+        first: &[u32],
+        second: &[u32],
+        same: bool,
+        visit: Visit,
+    ) -> ControlFlow<()> {
+        let [edges, triangles] = self.starts;
+        for (k, &i) in first.iter().enumerate() {
+            let rest = if same { &second[k + 1..] } else { second };
+            for &j in rest {
+                // The order of dimensions is that of the indices.
+                let (i, j) = (i.min(j) as usize, i.max(j) as usize);
+                if i >= triangles || j < edges || !self.boxes[i].overlaps(&self.boxes[j]) {
+                    continue;
+                }
+                let [p, q] = [self.corners[i], self.corners[j]];
+                if !p.iter().any(|v| q.contains(v)) {
+                    visit(i, j)?;
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// The vertex that most simplices have; the lowest of several.
+    fn commonest_vertex(&self, list: &[u32]) -> VertexId {
+        let mut counts: FxHashMap<VertexId, usize> = FxHashMap::default();
+        for &i in list {
+            for v in self.corners[i as usize] {
+                *counts.entry(v).or_default() += 1;
+            }
+        }
+        let best = counts
+            .into_iter()
+            .max_by_key(|&(v, n)| (n, std::cmp::Reverse(v)));
+        best.expect("a simplex has vertices").0
+    }
+}
+
+/// Whether a cut leaves clearly fewer pairs.
+fn helps(list: &[u32], halves: &[Vec<u32>; 2]) -> bool {
+    let square = |n: usize| (n as f64).powi(2);
+    square(halves[0].len()) + square(halves[1].len()) <= PROGRESS * square(list.len())
+}
+
+fn cross([a, b, c]: Point, [x, y, z]: Point) -> Point {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
+/// Whether one of the axes across an edge of the triangle and an edge of the box, or the normal of the triangle, certainly
+/// separates them. Infinite and undefined values separate nothing.
+fn separated(triangle: [Point; 3], cell: &Bounds) -> bool {
+    let half = |x: f64, y: f64, sign: f64| 0.5 * x + sign * 0.5 * y;
+    let centre = [0, 1, 2].map(|k| half(cell.high[k], cell.low[k], 1.0));
+    let extent = [0, 1, 2].map(|k| half(cell.high[k], cell.low[k], -1.0));
+    let at = triangle.map(|p| [0, 1, 2].map(|k| p[k] - centre[k]));
+    // What the coordinates are rounded by is at most this times the unit roundoff.
+    let size = [0, 1, 2].map(|k| {
+        let largest = triangle
+            .iter()
+            .fold(centre[k].abs(), |m, p| m.max(p[k].abs()));
+        largest + extent[k]
+    });
+    /// Far above what the few operations below add up to.
+    const MARGIN: f64 = 64.0 * f64::EPSILON;
+    let apart = |axis: Point, slack: f64| {
+        let along = |p: &Point| axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
+        let [x, y, z] = [along(&at[0]), along(&at[1]), along(&at[2])];
+        let reach: f64 =
+            (0..3).map(|k| axis[k].abs() * extent[k]).sum::<f64>() + slack + f64::MIN_POSITIVE;
+        x.min(y).min(z) > reach || x.max(y).max(z) < -reach
+    };
+    let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| [0, 1, 2].map(|k| at[j][k] - at[i][k]));
+    for side in &sides {
+        for k in 0..3 {
+            let (l, m) = ((k + 1) % 3, (k + 2) % 3);
+            let mut axis = [0.0; 3];
+            axis[l] = -side[m];
+            axis[m] = side[l];
+            // Both factors of each product are rounded relative to `size`, and bounded by twice it.
+            if apart(axis, MARGIN * 4.0 * size[l] * size[m]) {
+                return true;
+            }
+        }
+    }
+    let [[ax, ay, az], [bx, by, bz], _] = sides;
+    let normal = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+    apart(normal, MARGIN * 24.0 * size[0] * size[1] * size[2])
+}

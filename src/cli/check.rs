@@ -1,0 +1,170 @@
+//! `tetflip check`: why an input is no valid PLC.
+
+use super::{Stop, check_outputs, read, say};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use tetflip::check::{Conflict, Findings, Part, check};
+use tetflip::format::write_conflicts;
+use tetflip::mesh::VertexId;
+use tetflip::plc::{EdgeName, Plc, VertexName};
+
+#[derive(clap::Args)]
+pub(crate) struct CheckArguments {
+    /// The PLC, in any input format.
+    input: PathBuf,
+    /// Print the findings as one JSON object instead of lines.
+    #[arg(long)]
+    json: bool,
+    /// Stop when this many intersecting pairs have been found.
+    #[arg(long, value_name = "N")]
+    max: Option<usize>,
+    /// Write the facets and segments in question for ParaView.
+    #[arg(short, long, value_name = "BAD.vtu")]
+    output: Option<PathBuf>,
+    /// Say nothing; only the exit status.
+    #[arg(short, long, conflicts_with = "json")]
+    quiet: bool,
+}
+
+/// Checks a PLC and prints what is wrong with it.
+pub(crate) fn check_file(arguments: &CheckArguments) -> Result<(), Stop> {
+    if let Some(path) = &arguments.output {
+        if path.extension().is_none_or(|e| e != "vtu") {
+            let path = path.display();
+            return Err(Stop::input(format!("{path}: the extension must be .vtu")));
+        }
+        check_outputs(&arguments.input, Some(path), None)?;
+    }
+    let plc = read(&arguments.input)?;
+    let findings = check(&plc, arguments.max);
+    if let Some(path) = &arguments.output {
+        write_conflicts(path, &plc, &findings).map_err(Stop::input)?;
+    }
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&as_json(&plc, &findings)).map_err(Stop::input)?;
+        say(&text);
+    } else if !arguments.quiet {
+        lines(&plc, &findings).iter().for_each(|line| say(line));
+    }
+    if findings.is_valid() {
+        Ok(())
+    } else {
+        Err(Stop::input(format!(
+            "{} is no valid PLC",
+            arguments.input.display()
+        )))
+    }
+}
+
+/// The findings for people.
+fn lines(plc: &Plc, findings: &Findings) -> Vec<String> {
+    let mut lines: Vec<String> = findings.errors.iter().map(ToString::to_string).collect();
+    lines.extend(findings.conflicts.iter().map(|c| c.describe(plc)));
+    let [errors, pairs] = [findings.errors.len(), findings.conflicts.len()];
+    let facets = plc.facets.len();
+    let more = if findings.stopped {
+        " (the search was stopped there)"
+    } else {
+        ""
+    };
+    lines.push(if findings.is_valid() {
+        format!("valid: {facets} facets, no intersections")
+    } else {
+        format!("not valid: {errors} wrong for themselves, {pairs} intersecting pairs{more}, {facets} facets in all")
+    });
+    lines.extend(notes(plc, findings));
+    lines
+}
+
+/// What is unusual, one line for each kind.
+fn notes(plc: &Plc, findings: &Findings) -> Vec<String> {
+    /// How many are named.
+    const SHOWN: usize = 5;
+    let mut lines = Vec::new();
+    let mut note = |count: usize, what: &str, names: Vec<String>| {
+        if count > 0 {
+            let more = if count > names.len() { ", …" } else { "" };
+            lines.push(format!("note: {count} {what}: {}{more}", names.join(", ")));
+        }
+    };
+    let vertex = |v: VertexId| VertexName::new(plc, v);
+    let edge = |ends: [VertexId; 2]| EdgeName::new(plc, ends).to_string();
+    let found = &findings.notes;
+    let duplicates = found.duplicate_vertices.iter().take(SHOWN);
+    note(
+        found.duplicate_vertices.len(),
+        "vertices coincide with earlier ones and are taken for them",
+        duplicates
+            .map(|&[v, first]| format!("{} = {}", vertex(v), vertex(first)))
+            .collect(),
+    );
+    let unused = found.unused_vertices.iter().take(SHOWN);
+    note(
+        found.unused_vertices.len(),
+        "vertices belong to no facet and no segment",
+        unused.map(|&v| vertex(v).to_string()).collect(),
+    );
+    note(
+        found.open_edges.len(),
+        "edges bound one facet only (open surface)",
+        found
+            .open_edges
+            .iter()
+            .take(SHOWN)
+            .map(|&e| edge(e))
+            .collect(),
+    );
+    let branching = found.branching_edges.iter().take(SHOWN);
+    note(
+        found.branching_edges.len(),
+        "edges bound more than two facets",
+        branching
+            .map(|&(e, count)| format!("{} ({count})", edge(e)))
+            .collect(),
+    );
+    lines
+}
+
+/// The findings for programs: numbers are those of the file.
+fn as_json(plc: &Plc, findings: &Findings) -> Value {
+    let vertex = |v: VertexId| VertexName::new(plc, v).number;
+    let edge = |ends: [VertexId; 2]| ends.map(vertex);
+    let part = |part: Part| match part {
+        Part::Facet(index) => {
+            let number = index as u64 + u64::from(plc.first_index);
+            let polygons = plc.facets[index].polygons.iter();
+            let polygons: Vec<Vec<u64>> = polygons
+                .map(|p| p.iter().map(|&v| vertex(v)).collect())
+                .collect();
+            json!({"facet": number, "polygons": polygons})
+        }
+        Part::Segment(index) => json!({"segment": edge(plc.segments[index].ends)}),
+        Part::Vertex(v) => json!({"vertex": vertex(v)}),
+    };
+    let conflict = |c: &Conflict| {
+        json!({
+            "kind": c.kind.word(),
+            "parts": c.parts.map(part),
+            "vertex": c.kind.vertex().map(vertex),
+            "edges": c.kind.edges().into_iter().map(edge).collect::<Vec<_>>(),
+            "point": c.point,
+            "message": c.describe(plc),
+        })
+    };
+    let notes = &findings.notes;
+    let branching = notes.branching_edges.iter();
+    json!({
+        "valid": findings.is_valid(),
+        "stopped": findings.stopped,
+        "errors": findings.errors.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "conflicts": findings.conflicts.iter().map(conflict).collect::<Vec<_>>(),
+        "notes": {
+            "duplicate_vertices": notes.duplicate_vertices.iter().map(|&e| edge(e)).collect::<Vec<_>>(),
+            "unused_vertices": notes.unused_vertices.iter().map(|&v| vertex(v)).collect::<Vec<_>>(),
+            "open_edges": notes.open_edges.iter().map(|&e| edge(e)).collect::<Vec<_>>(),
+            "branching_edges": branching
+                .map(|&(e, count)| json!({"edge": edge(e), "facets": count}))
+                .collect::<Vec<_>>(),
+        },
+    })
+}
