@@ -35,6 +35,9 @@ pub(super) fn point_on_triangle(p: Point, t: Triangle) -> bool {
 
 /// The same for a point in the triangle's plane.
 fn point_in_plane_triangle(p: Point, t: Triangle) -> bool {
+    if boxes_are_apart(&[p], &t) {
+        return false;
+    }
     let axis = axis_of(t).expect("a triangle is not degenerate");
     let at = drop(axis, p);
     let [a, b, c] = t.map(|v| drop(axis, v));
@@ -51,8 +54,24 @@ pub(super) fn edges_meet([a, b]: Edge, [c, d]: Edge) -> bool {
     orient3d([a, b, c, d]).is_zero() && plane_edges_meet([a, b], [c, d])
 }
 
+/// Whether the bounding boxes of two simplices have no common point, which is quickly seen.
+fn boxes_are_apart(s: &[Point], t: &[Point]) -> bool {
+    let range = |points: &[Point], k: usize| {
+        let coordinates = points.iter().map(|p| p[k]);
+        let low = coordinates.clone().fold(f64::INFINITY, f64::min);
+        (low, coordinates.fold(f64::NEG_INFINITY, f64::max))
+    };
+    (0..3).any(|k| {
+        let ((low, high), (least, most)) = (range(s, k), range(t, k));
+        high < least || most < low
+    })
+}
+
 /// The same for edges in one plane.
 fn plane_edges_meet([a, b]: Edge, [c, d]: Edge) -> bool {
+    if boxes_are_apart(&[a, b], &[c, d]) {
+        return false;
+    }
     match axis_of([a, b, c]).or_else(|| axis_of([a, b, d])) {
         Some(axis) => flat_edges_meet([a, b].map(|p| drop(axis, p)), [c, d].map(|p| drop(axis, p))),
         // All on one line.

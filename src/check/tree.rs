@@ -110,7 +110,7 @@ impl<'a> Simplices<'a> {
             return self.divide(&cells[1], right, depth - 1, visit);
         }
         for direction in self.across_longest(&list) {
-            let Some([left, right]) = self.cut_across(&list, direction) else {
+            let Some([left, right]) = self.cut_across(&tight, &list, direction) else {
                 continue;
             };
             std::mem::drop(list);
@@ -200,19 +200,10 @@ impl<'a> Simplices<'a> {
     }
 
     /// Cuts a list across any direction; `None` if that would not help. The length of the direction is about 1.
-    fn cut_across(&self, list: &[u32], direction: Point) -> Option<[Vec<u32>; 2]> {
-        // The range of a simplex along the direction, widened by what it can be wrong by.
+    fn cut_across(&self, cell: &Bounds, list: &[u32], direction: Point) -> Option<[Vec<u32>; 2]> {
         let range = |&i: &u32| {
-            let mut range = (f64::INFINITY, f64::NEG_INFINITY);
-            for v in self.corners[i as usize] {
-                let p = self.points[v.index()];
-                let terms = [0, 1, 2].map(|k| 0.25 * direction[k] * p[k]);
-                let at: f64 = terms.iter().sum();
-                let wrong = 8.0 * f64::EPSILON * terms.iter().map(|x| x.abs()).sum::<f64>()
-                    + f64::MIN_POSITIVE;
-                range = (range.0.min(at - wrong), range.1.max(at + wrong));
-            }
-            range
+            let corners = self.corners[i as usize].map(|v| self.points[v.index()]);
+            range_in_cell(corners, cell, direction)
         };
         let ranges: Vec<(f64, f64)> = list.iter().map(range).collect();
         let mut centres: Vec<f64> = ranges.iter().map(|r| 0.5 * r.0 + 0.5 * r.1).collect();
@@ -292,6 +283,48 @@ impl<'a> Simplices<'a> {
 fn helps(list: &[u32], halves: &[Vec<u32>; 2]) -> bool {
     let square = |n: usize| (n as f64).powi(2);
     square(halves[0].len()) + square(halves[1].len()) <= PROGRESS * square(list.len())
+}
+
+/// The range that the part of a triangle in a cell has along a direction; a quarter of it, so that sums do not overflow. The
+/// part is computed by clipping (Sutherland & Hodgman 1974) in doubles, and everything that rounding might cut off is
+/// added, so that the range is not too small.
+fn range_in_cell(corners: [Point; 3], cell: &Bounds, direction: Point) -> (f64, f64) {
+    const MARGIN: f64 = 64.0 * f64::EPSILON;
+    let size = [0, 1, 2].map(|k| {
+        let bounds = cell.low[k].abs().max(cell.high[k].abs());
+        corners.iter().fold(bounds, |m, p| m.max(p[k].abs()))
+    });
+    let mut shape = corners.to_vec();
+    for (k, bound, sign) in (0..3).flat_map(|k| [(k, cell.low[k], 1.0), (k, cell.high[k], -1.0)]) {
+        let inside = |p: &Point| sign * p[k] >= sign * bound;
+        let mut clipped = Vec::with_capacity(shape.len() + 1);
+        for (i, p) in shape.iter().enumerate() {
+            let q = &shape[(i + 1) % shape.len()];
+            if inside(p) {
+                clipped.push(*p);
+            }
+            if inside(p) != inside(q) {
+                let (within, beyond) = if inside(p) { (p, q) } else { (q, p) };
+                let length = (beyond[k] - within[k]).abs();
+                let exact = (bound - within[k]).abs() / length;
+                let t = (exact + MARGIN * size[k] / length).min(1.0);
+                clipped.push([0, 1, 2].map(|j| within[j] * (1.0 - t) + beyond[j] * t));
+            }
+        }
+        // Only by rounding: it does reach the cell.
+        if clipped.is_empty() {
+            shape = corners.to_vec();
+            break;
+        }
+        shape = clipped;
+    }
+    let terms = |p: &Point| [0, 1, 2].map(|k| 0.25 * direction[k] * p[k]);
+    let sizes = terms(&size).iter().map(|x| x.abs()).sum::<f64>();
+    let wrong = 4.0 * MARGIN * sizes + f64::MIN_POSITIVE;
+    let at = shape.iter().map(|p| terms(p).iter().sum::<f64>());
+    let low = at.clone().fold(f64::INFINITY, f64::min);
+    let high = at.fold(f64::NEG_INFINITY, f64::max);
+    (low - wrong, high + wrong)
 }
 
 fn cross([a, b, c]: Point, [x, y, z]: Point) -> Point {

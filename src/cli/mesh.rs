@@ -79,23 +79,33 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         bar.set_position(done as u64)
     });
     bar.finish_and_clear();
+    let mut status = 2;
     let outcome = match &result {
         Ok(_) => "ok".to_owned(),
-        Err(failure) => failure.describe(&plc) + &explanation(arguments, &plc, failure),
+        Err(failure) => {
+            let gave_up = matches!(failure, Failure::GaveUp(_));
+            match explanation(&arguments.input, &plc, failure) {
+                // Whatever the algorithm ran into, the input is to blame.
+                Some(why) if gave_up => {
+                    format!("invalid PLC: {why}\n({})", failure.describe(&plc))
+                }
+                Some(why) => format!("{}\n{why}", failure.describe(&plc)),
+                None => {
+                    status = if gave_up { 1 } else { 2 };
+                    failure.describe(&plc)
+                }
+            }
+        }
     };
     if let Some(path) = &arguments.report {
         write_report(path, &arguments.input, &outcome, &report)?;
     }
     let mesh = result.map_err(|failure| Stop {
         message: match failure.region() {
-            Some(region) => outcome + &dump_region(arguments, region),
-            None => outcome,
+            Some(region) if status == 1 => outcome + &dump_region(arguments, region),
+            _ => outcome,
         },
-        status: if matches!(failure, Failure::GaveUp(_)) {
-            1
-        } else {
-            2
-        },
+        status,
     })?;
     if arguments.verify {
         let domain = if arguments.hull {
@@ -157,8 +167,8 @@ fn remove_old_region(arguments: &MeshArguments) -> Result<(), Stop> {
     }
 }
 
-/// What the check says of the input of a failed run: facets and vertices, where the failure is theirs.
-fn explanation(arguments: &MeshArguments, plc: &Plc, failure: &Failure) -> String {
+/// What the check says of the input of a failed run, if it is not a valid PLC.
+fn explanation(input: &Path, plc: &Plc, failure: &Failure) -> Option<String> {
     /// How many findings are listed.
     const LISTED: usize = 8;
     // Other failures are not about facets that intersect.
@@ -168,27 +178,27 @@ fn explanation(arguments: &MeshArguments, plc: &Plc, failure: &Failure) -> Strin
         )
         | Failure::GaveUp(GaveUp::NothingInside)
         | Failure::Delaunay(_)
-        | Failure::NoSuchPolygon(_) => return String::new(),
+        | Failure::NoSuchPolygon(_) => return None,
         Failure::Plc(_) | Failure::Invalid(_) | Failure::GaveUp(_) => {}
     }
     let findings = check(plc, Some(LISTED));
-    if findings.is_valid() {
-        return "\n(the input is a valid PLC: no facets intersect)".to_owned();
-    }
     let told = failure.describe(plc);
     let errors = findings.errors.iter().map(ToString::to_string);
     let conflicts = findings.conflicts.iter().map(|c| c.describe(plc));
-    let others: Vec<String> = errors
+    let mut lines: Vec<String> = errors
         .chain(conflicts)
         .filter(|line| !told.ends_with(line))
         .collect();
-    let listed = others.iter().take(LISTED);
-    let mut text: String = listed.map(|line| format!("\n{line}")).collect();
-    if others.len() > LISTED || findings.stopped {
-        text += "\n…";
+    if findings.is_valid() || lines.is_empty() {
+        return None;
     }
-    let input = arguments.input.display();
-    text + &format!("\nfor all that is wrong: tetflip check {input}")
+    if lines.len() > LISTED || findings.stopped {
+        lines.truncate(LISTED);
+        lines.push("…".to_owned());
+    }
+    let input = input.display();
+    lines.push(format!("for all that is wrong: tetflip check {input}"));
+    Some(lines.join("\n"))
 }
 
 /// Writes the region of failed flips, and says where it is and how to try again.
