@@ -28,7 +28,8 @@ use crate::report::{Phase, Report};
 pub struct Options {
     /// How polygons are inserted.
     pub insertion: Insertion,
-    /// Keep everything in the convex hull of the vertices, instead of what the facets enclose.
+    /// Keep everything in the convex hull of the vertices, instead of what the facets enclose. Where they enclose nothing
+    /// the hull is kept in any case ([`Report::hull_instead`]).
     pub keep_hull: bool,
     /// Merge facets that are exactly coplanar, adjacent and equally marked into one polygon, so that their common edges
     /// are not constrained.
@@ -441,7 +442,13 @@ pub fn tetrahedralize(
 ) -> Result<ExportedMesh, Failure> {
     let mut cdt = Cdt::begin(plc, options, report)?;
     cdt.insert_polygons(options.insertion, report, progress)?;
-    cdt.export(plc, options.keep_hull, report)
+    match cdt.export(plc, options.keep_hull, report) {
+        Err(Failure::GaveUp(GaveUp::NothingInside)) => {
+            report.hull_instead = true;
+            cdt.export(plc, true, report)
+        }
+        result => result,
+    }
 }
 
 #[cfg(test)]

@@ -42,6 +42,19 @@ impl Failure {
         }
     }
 
+    /// Whether Steiner points rounded to doubles can be the reason, so that exact ones are worth a try.
+    pub fn is_due_to_rounding(&self) -> bool {
+        matches!(
+            self,
+            Failure::GaveUp(
+                GaveUp::NotFlat { .. }
+                    | GaveUp::SegmentsTooClose { .. }
+                    | GaveUp::SegmentTooShort { .. }
+                    | GaveUp::TooManySteinerPoints { .. }
+            )
+        )
+    }
+
     /// The message, with vertices and facets numbered as in the user's file.
     pub fn describe(&self, plc: &Plc) -> String {
         let facets = |list: &[usize]| {

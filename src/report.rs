@@ -67,6 +67,8 @@ pub struct Report {
     pub output_tets: usize,
     /// Subpolygons of the output (and hull faces, where the hull is kept).
     pub output_faces: usize,
+    /// Whether the convex hull is kept because the facets enclose nothing.
+    pub hull_instead: bool,
     /// Exact Steiner points that output does not round to the nearest doubles, so that tetrahedra stay positive.
     pub moved_by_rounding: usize,
     /// Tetrahedra that are positive with the exact Steiner points but not with the rounded ones, by index in the output,

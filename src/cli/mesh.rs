@@ -10,6 +10,7 @@ use tetflip::check::check;
 use tetflip::error::{Failure, GaveUp, InvalidPlc};
 use tetflip::format::{write_complete, write_poly};
 use tetflip::plc::Plc;
+use tetflip::predicate::Steiner;
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
@@ -33,7 +34,10 @@ pub(crate) struct MeshArguments {
     /// [default: filtered]
     #[arg(long, value_name = "TYPE")]
     times: Option<Times>,
-    /// Keep the whole convex hull instead of what the facets enclose.
+    /// How Steiner points on segments are represented.
+    #[arg(long, value_enum, default_value_t = SteinerArgument::Auto)]
+    steiner: SteinerArgument,
+    /// Keep the whole convex hull instead of what the facets enclose. Where they enclose nothing it is kept in any case.
     #[arg(long)]
     hull: bool,
     /// Do not merge coplanar adjacent facets: constrain their common edges, too.
@@ -60,12 +64,26 @@ enum InsertArgument {
     Flip,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SteinerArgument {
+    /// Rounded; exact if that has no solution. The summary and the report say which.
+    Auto,
+    /// As doubles: segments and polygons with Steiner points are straight and flat up to rounding (paper).
+    Rounded,
+    /// Exactly: straight and flat; rounded only on output. NAME.steiner holds the exact positions.
+    Exact,
+}
+
 /// Makes the CDT and writes it.
 pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
-    let options = Options {
+    let mut options = Options {
         insertion: insertion(arguments)?,
         keep_hull: arguments.hull,
         merge_coplanar: !arguments.no_merge,
+        steiner: match arguments.steiner {
+            SteinerArgument::Auto | SteinerArgument::Rounded => Steiner::Rounded,
+            SteinerArgument::Exact => Steiner::Exact,
+        },
     };
     check_outputs(
         &arguments.input,
@@ -75,10 +93,35 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
     let plc = read(&arguments.input)?;
     let mut report = Report::default();
     let bar = progress_bar(plc.facets.len(), arguments.quiet);
-    let result = tetrahedralize(&plc, &options, &mut report, &mut |done| {
+    let mut result = tetrahedralize(&plc, &options, &mut report, &mut |done| {
         bar.set_position(done as u64)
     });
+    let mut notes = Vec::new();
+    if arguments.steiner == SteinerArgument::Auto
+        && let Err(failure) = &result
+        && failure.is_due_to_rounding()
+    {
+        let why = failure.describe(&plc);
+        notes.push(format!(
+            "with rounded Steiner points: {why}; made with exact ones"
+        ));
+        options.steiner = Steiner::Exact;
+        report = Report::default();
+        result = tetrahedralize(&plc, &options, &mut report, &mut |done| {
+            bar.set_position(done as u64)
+        });
+    }
     bar.finish_and_clear();
+    if report.hull_instead {
+        let note = "the facets enclose nothing (an open surface?): the convex hull is kept";
+        notes.push(note.to_owned());
+    }
+    if !report.spoilt_by_rounding.is_empty() {
+        notes.push(spoilt_by_rounding(
+            &report.spoilt_by_rounding,
+            plc.first_index,
+        ));
+    }
     let mut status = 2;
     let outcome = match &result {
         Ok(_) => "ok".to_owned(),
@@ -108,7 +151,7 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         status,
     })?;
     if arguments.verify {
-        let domain = if arguments.hull {
+        let domain = if arguments.hull || report.hull_instead {
             Domain::Hull
         } else {
             Domain::Inside
@@ -118,6 +161,10 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
             &mesh,
             VerifyOptions {
                 domain,
+                tolerance: match options.steiner {
+                    Steiner::Rounded => VerifyOptions::default().tolerance,
+                    Steiner::Exact => 0.0,
+                },
                 ..VerifyOptions::default()
             },
         );
@@ -139,8 +186,24 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
             report.insertion_counts.flips.flips(),
             if arguments.verify { "; verified" } else { "" },
         ));
+        notes.iter().for_each(|note| say(note));
     }
     Ok(())
+}
+
+/// Names the tetrahedra that are positive only with exact Steiner points.
+fn spoilt_by_rounding(tets: &[usize], first_index: u32) -> String {
+    const LISTED: usize = 20;
+    let names = tets.iter().take(LISTED);
+    let names: Vec<String> = names
+        .map(|t| (t + first_index as usize).to_string())
+        .collect();
+    format!(
+        "{} tetrahedra are positive, but not with Steiner points rounded to doubles: {}{} (the report lists all)",
+        tets.len(),
+        names.join(", "),
+        if tets.len() > LISTED { ", …" } else { "" }
+    )
 }
 
 fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {

@@ -16,8 +16,9 @@ pub(crate) struct VerifyArguments {
     #[arg(long, value_enum, default_value_t = DomainArgument::Auto)]
     domain: DomainArgument,
     /// How far a Steiner point may be from its segment or facet, in units in the last place of the largest coordinate.
-    #[arg(long, default_value_t = VerifyOptions::default().tolerance, value_parser = tolerance)]
-    tolerance: f64,
+    /// [default: 8, or 0 where NAME.steiner gives exact positions]
+    #[arg(long, value_parser = tolerance)]
+    tolerance: Option<f64>,
     /// Facets with one marker may have been merged if the angle between them is at least this many degrees. TetGen merges
     /// from 179.9 on. Only asked where the mesh does not hold with exactly coplanar facets merged, and then said.
     #[arg(long, value_parser = merge_angle, default_value_t = 179.9)]
@@ -64,7 +65,10 @@ pub(crate) fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
             DomainArgument::Hull => Domain::Hull,
             DomainArgument::Inside => Domain::Inside,
         },
-        tolerance: arguments.tolerance,
+        tolerance: arguments.tolerance.unwrap_or(match mesh.exact[..] {
+            [] => VerifyOptions::default().tolerance,
+            _ => 0.0,
+        }),
         ..VerifyOptions::default()
     };
     let mut verdict = verify(&plc, &mesh, exactly);

@@ -47,7 +47,9 @@ pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, Mesh
     let exact = sibling(path, "steiner");
     let has_exact = matches!(format, Format::TetGen) && !mesh.exact.is_empty();
     if has_exact {
-        staged.push(stage(exact.clone(), |out| tetgen_mesh::write_steiner(out, mesh))?);
+        staged.push(stage(exact.clone(), |out| {
+            tetgen_mesh::write_steiner(out, mesh)
+        })?);
     }
     staged.iter().try_for_each(Staged::check_place)?;
     if matches!(format, Format::TetGen)

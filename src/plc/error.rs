@@ -241,6 +241,7 @@ impl PlcError {
             | PlcError::NothingLeft { facet }
             | PlcError::HoleOnEdge { facet, .. }
             | PlcError::NotPlanar { facet, .. }
+            | PlcError::NotTriangulated { facet }
             | PlcError::EdgesCross { facet, .. }
             | PlcError::VertexOnEdge { facet, .. } => vec![facet.index],
             PlcError::SameFacet { first, second }

@@ -78,12 +78,15 @@ impl FromStr for Algorithm {
 pub(super) enum Steiner {
     /// Rounded to doubles, so that they are near their segments.
     Rounded,
+    /// Exactly on their segments.
+    Exact,
 }
 
 impl fmt::Display for Steiner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Steiner::Rounded => f.write_str("rounded"),
+            Steiner::Exact => f.write_str("exact"),
         }
     }
 }

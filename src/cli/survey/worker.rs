@@ -199,10 +199,11 @@ fn ours(
         insertion,
         keep_hull: job.keep_hull,
         merge_coplanar: job.merge_coplanar,
+        steiner: match job.steiner {
+            Steiner::Rounded => tetflip::predicate::Steiner::Rounded,
+            Steiner::Exact => tetflip::predicate::Steiner::Exact,
+        },
     };
-    match job.steiner {
-        Steiner::Rounded => {}
-    }
     let mut report = Report::default();
     let mut inserting = false;
     let start = Instant::now();
@@ -283,6 +284,9 @@ fn judge(plc: &Plc, mesh: &ExportedMesh, job: &Job, findings: &mut Findings) {
         cap: SHOWN,
         ..VerifyOptions::default()
     };
+    if job.steiner == Steiner::Exact {
+        options.tolerance = 0.0;
+    }
     let mut verdict = verify(plc, mesh, options);
     findings.verified = if verdict.is_ok() { "yes" } else { "no" }.to_owned();
     if !verdict.is_ok() && job.algorithm.is_foreign() {
