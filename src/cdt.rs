@@ -91,6 +91,7 @@ impl Cdt<DoublePoints> {
         });
         report.steiner_points = points.len() - plc.vertices.len();
         let (subsegments, incidence) = recovered?;
+        report.steiner_points_on_segment = subsegments.count_exact(&points);
         Ok(Cdt {
             points,
             mesh: delaunay.mesh,

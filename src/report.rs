@@ -54,6 +54,8 @@ pub struct Report {
     pub delaunay_tets: usize,
     /// Steiner points, all of them on segments.
     pub steiner_points: usize,
+    /// Those that lie exactly on their segment: where coordinates have bits to spare, rounding changes nothing.
+    pub steiner_points_on_segment: usize,
     /// What polygon insertion did.
     pub insertion_counts: PolygonCounts,
     /// Tetrahedra of the output.

@@ -29,6 +29,8 @@ pub struct DoublePoints {
     /// The identities of reordered points; `None` where each has its index.
     identities: Option<Vec<u32>>,
     range: Range,
+    /// What the range was before the points that changed it: they may be taken back.
+    earlier: Vec<(usize, Range)>,
 }
 
 /// What is known of all coordinates: the grid that they lie on and their largest magnitude.
@@ -109,6 +111,7 @@ impl DoublePoints {
             points,
             identities: None,
             range,
+            earlier: Vec::new(),
         }
     }
 
@@ -187,6 +190,7 @@ impl PointStore for DoublePoints {
             points: order.iter().map(|v| self.points[v.index()]).collect(),
             identities: Some(order.iter().map(|&v| self.identity(v)).collect()),
             range: self.range,
+            earlier: Vec::new(),
         }
     }
 
@@ -204,9 +208,13 @@ impl PointStore for DoublePoints {
     /// # Panics
     /// If a coordinate is not finite.
     fn push(&mut self, p: [f64; 3]) -> VertexId {
+        let before = self.range;
         for x in p {
             assert!(x.is_finite(), "coordinates are finite");
             self.range.include(x);
+        }
+        if (before.grid, before.largest) != (self.range.grid, self.range.largest) {
+            self.earlier.push((self.points.len(), before));
         }
         let v = VertexId::new(self.points.len());
         self.points.push(p);
@@ -218,6 +226,9 @@ impl PointStore for DoublePoints {
 
     fn truncate(&mut self, n: usize) {
         self.points.truncate(n);
+        while let Some((_, range)) = self.earlier.pop_if(|(i, _)| *i >= n) {
+            self.range = range;
+        }
         if let Some(identities) = &mut self.identities {
             identities.truncate(n);
         }
@@ -325,6 +336,21 @@ mod tests {
                 .collect()
         });
         prop_oneof![free, lattice]
+    }
+
+    /// What is known of the coordinates, and with it the speed, comes back with the points.
+    #[test]
+    fn truncation_restores_the_range() {
+        let mut store = DoublePoints::new(vec![[1.0, 2.0, 4.0]; 3]);
+        for p in [[0.5, 0.0, 1.0], [8.0, 0.0, 1.0], [0.1, 0.2, 1e9]] {
+            store.push(p);
+        }
+        store.truncate(5);
+        assert_eq!((store.range.grid, store.range.largest), (-1, 8.0));
+        store.truncate(3);
+        assert_eq!((store.range.grid, store.range.largest), (0, 4.0));
+        assert_eq!(store.push([0.25, 0.0, 0.0]), VertexId(3));
+        assert_eq!(store.grid(), Some(-2));
     }
 
     proptest! {
