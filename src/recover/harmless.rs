@@ -18,11 +18,11 @@ use crate::predicate::PointStore;
 use rustc_hash::FxHashSet;
 
 /// Dyadic places are multiples of this part of the subsegment.
-const PARTS: u32 = 16;
+const PARTS: u32 = 64;
 /// No place is nearer to an end than this part of the subsegment.
-const MARGIN: f64 = 0.05;
+const MARGIN: f64 = 0.01;
 /// How far places may be moved for the sake of fewer bits, as a part of the subsegment.
-const SLACK: f64 = 1.0 / 256.0;
+const SLACK: f64 = 1.0 / 512.0;
 /// How many of the vertices around suggest places: near a hub there can be very many.
 const MOST_SUGGESTIONS: usize = 24;
 
@@ -149,6 +149,6 @@ mod tests {
     fn places_with_few_bits_come_first() {
         let places = dyadic_places([0.0, 1.0]);
         assert_eq!(places[..5], [0.5, 0.25, 0.75, 0.375, 0.625]);
-        assert_eq!(places.len(), 15);
+        assert_eq!(places.len(), 63);
     }
 }
