@@ -120,6 +120,7 @@ impl Cdt<DoublePoints> {
         report.steiner_points = points.len() - plc.vertices.len();
         report.steiner_not_doubles = points.no_doubles();
         let (subsegments, incidence) = recovered?;
+        report.steiner_points_on_segment = subsegments.count_exact(&points);
         Ok(Cdt {
             points,
             mesh: delaunay.mesh,

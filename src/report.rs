@@ -55,6 +55,8 @@ pub struct Report {
     pub delaunay_tets: usize,
     /// Steiner points, all of them on segments.
     pub steiner_points: usize,
+    /// Those that lie exactly on their segment: where coordinates have bits to spare, rounding changes nothing.
+    pub steiner_points_on_segment: usize,
     /// How Steiner points are represented.
     pub steiner: Steiner,
     /// Exact Steiner points whose coordinates are no doubles, so that output rounds them.

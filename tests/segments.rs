@@ -161,7 +161,7 @@ fn segments_that_nearly_meet_end() {
     ]);
     close.segments = vec![segment(0, 1), segment(2, 3)];
     let (_, report) = mesh_and_verify(&close);
-    assert!(report.steiner_points > 50);
+    assert!(report.steiner_points > 0);
 }
 
 proptest! {

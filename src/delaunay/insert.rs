@@ -70,6 +70,11 @@ impl Delaunay {
         &self.scratch.conflict
     }
 
+    /// The facets between that conflict zone and the rest, as corners of tetrahedra in the zone.
+    pub fn conflict_boundary(&self) -> &[Corner] {
+        &self.scratch.boundary
+    }
+
     /// The tetrahedra that the last insertion created: all those around the new vertex, ghosts included.
     pub fn created(&self) -> &[TetId] {
         &self.scratch.created

@@ -12,7 +12,9 @@
 mod build;
 mod insert;
 mod order;
+mod removal;
 
 pub use build::{DelaunayError, delaunay};
 pub use insert::Delaunay;
 pub use order::insertion_order;
+pub use removal::filling;

@@ -33,12 +33,14 @@ use robust::Coord3D;
 pub struct DoublePoints {
     /// [NaN, NaN, i] stands for `segment_points[i]`.
     points: Vec<[f64; 3]>,
-    /// In order of vertex.
-    segment_points: Vec<SegmentPoint>,
+    /// By vertex, ascending.
+    segment_points: Vec<(usize, SegmentPoint)>,
     steiner: Steiner,
     /// The identities of reordered points; `None` where each has its index.
     identities: Option<Vec<u32>>,
     range: Range,
+    /// What the range was before the points that changed it: they may be taken back.
+    earlier: Vec<(usize, Range)>,
 }
 
 /// What is known of all coordinates that are doubles: the grid that they lie on and their largest magnitude.
@@ -121,6 +123,7 @@ impl DoublePoints {
             steiner: Steiner::Rounded,
             identities: None,
             range,
+            earlier: Vec::new(),
         }
     }
 
@@ -148,7 +151,7 @@ impl DoublePoints {
     /// A point whose coordinates are no doubles.
     fn segment_point(&self, v: VertexId) -> Option<&SegmentPoint> {
         let [x, _, i] = self.points[v.index()];
-        x.is_nan().then(|| &self.segment_points[i as usize])
+        x.is_nan().then(|| &self.segment_points[i as usize].1)
     }
 
     /// Whether one of the points has coordinates that are no doubles.
@@ -281,6 +284,7 @@ impl PointStore for DoublePoints {
             steiner: self.steiner,
             identities: Some(order.iter().map(|&v| self.identity(v)).collect()),
             range: self.range,
+            earlier: Vec::new(),
         }
     }
 
@@ -298,19 +302,22 @@ impl PointStore for DoublePoints {
     /// # Panics
     /// If a coordinate is not finite.
     fn push(&mut self, p: [f64; 3]) -> VertexId {
+        let before = self.range;
         for x in p {
             assert!(x.is_finite(), "coordinates are finite");
             self.range.include(x);
+        }
+        if (before.grid, before.largest) != (self.range.grid, self.range.largest) {
+            self.earlier.push((self.points.len(), before));
         }
         self.push_unchecked(p)
     }
 
     fn truncate(&mut self, n: usize) {
         self.points.truncate(n);
-        if !self.segment_points.is_empty() {
-            let last = self.points.iter().rev().find(|p| p[0].is_nan());
-            let left = last.map_or(0, |&[_, _, i]| i as usize + 1);
-            self.segment_points.truncate(left);
+        while self.segment_points.pop_if(|(i, _)| *i >= n).is_some() {}
+        while let Some((_, range)) = self.earlier.pop_if(|(i, _)| *i >= n) {
+            self.range = range;
         }
         if let Some(identities) = &mut self.identities {
             identities.truncate(n);
@@ -329,7 +336,7 @@ impl PointStore for DoublePoints {
             return self.push(point.rounded);
         }
         let place = self.segment_points.len() as f64;
-        self.segment_points.push(point);
+        self.segment_points.push((self.points.len(), point));
         self.push_unchecked([f64::NAN, f64::NAN, place])
     }
 
@@ -422,6 +429,21 @@ mod tests {
                 .collect()
         });
         prop_oneof![free, lattice]
+    }
+
+    /// What is known of the coordinates, and with it the speed, comes back with the points.
+    #[test]
+    fn truncation_restores_the_range() {
+        let mut store = DoublePoints::new(vec![[1.0, 2.0, 4.0]; 3]);
+        for p in [[0.5, 0.0, 1.0], [8.0, 0.0, 1.0], [0.1, 0.2, 1e9]] {
+            store.push(p);
+        }
+        store.truncate(5);
+        assert_eq!((store.range.grid, store.range.largest), (-1, 8.0));
+        store.truncate(3);
+        assert_eq!((store.range.grid, store.range.largest), (0, 4.0));
+        assert_eq!(store.push([0.25, 0.0, 0.0]), VertexId(3));
+        assert_eq!(store.grid(), Some(-2));
     }
 
     proptest! {

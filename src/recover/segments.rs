@@ -9,141 +9,26 @@
 //! else, so it is strongly regular for those weights. The CDT theorem holds for weighted CDTs (Shewchuk 2008), so the
 //! PLC has a CDT for the perturbed weights, which is what polygon insertion, with the same perturbation, builds.
 //!
-//! Each missing subsegment is split ([`super::split`]); an insertion can destroy other subsegments, so those in its
+//! Each missing subsegment is split ([`super::split`]), the longest first: then neighbours that are about as long are
+//! split alike, and their points stay level with each other. An insertion can destroy other subsegments, so those in its
 //! conflict zone are looked at again, and no others.
+//!
+//! # Thrift
+//! Which points are inserted is a choice. Two ways are tried from the start, and the one that needs fewer points is kept:
+//! the place that the rules of [`super::split`] say, and a place nearby that destroys no other subsegment
+//! ([`super::harmless`]), where there is one. In the end, points that turn out unnecessary are removed ([`super::prune`]).
 
 use super::scout::{Scouted, crossed_by, scout};
 use super::split::{self, Reference, Subsegment, split_parameter};
+use super::subsegments::key;
+pub use super::subsegments::{SegmentIndex, Subsegments};
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp, InvalidPlc};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::number::{Dyadic, Exact, Vec3};
 use crate::plc::Complex;
 use crate::predicate::PointStore;
-use rustc_hash::FxHashMap;
-
-/// The segments of a complex and how they are divided into subsegments.
-#[derive(Clone, Debug, Default)]
-pub struct Subsegments {
-    /// The segment of each subsegment, by its vertices in ascending order.
-    of: FxHashMap<[VertexId; 2], u32>,
-    /// For each segment its vertices with their parameters; from end to end once recovery is finished.
-    chains: Vec<Vec<(f64, VertexId)>>,
-    /// For each Steiner point, the segment it lies on and its parameter there; indexed from `first_steiner`.
-    steiner: Vec<(u32, f64)>,
-    first_steiner: usize,
-    ends: Vec<[VertexId; 2]>,
-}
-
-impl Subsegments {
-    fn new(complex: &Complex, first_steiner: usize) -> Subsegments {
-        let ends: Vec<[VertexId; 2]> = complex.segments.iter().map(|s| s.ends).collect();
-        Subsegments {
-            of: ends
-                .iter()
-                .enumerate()
-                .map(|(i, &[a, b])| (key(a, b), i as u32))
-                .collect(),
-            chains: ends
-                .iter()
-                .map(|&[a, b]| vec![(0.0, a), (1.0, b)])
-                .collect(),
-            steiner: Vec::new(),
-            first_steiner,
-            ends,
-        }
-    }
-
-    /// The segment that ab is a subsegment of, as an index in [`Complex::segments`].
-    pub fn segment_of(&self, a: VertexId, b: VertexId) -> Option<u32> {
-        self.of.get(&key(a, b)).copied()
-    }
-
-    /// The segment that a Steiner point lies on; `None` for vertices of the input.
-    pub fn segment_of_steiner(&self, v: VertexId) -> Option<u32> {
-        let i = v.index().checked_sub(self.first_steiner)?;
-        self.steiner.get(i).map(|&(s, _)| s)
-    }
-
-    /// The ends of the segment that a Steiner point lies on and its parameter there; `None` for vertices of the input.
-    pub fn place_of_steiner(&self, v: VertexId) -> Option<([VertexId; 2], f64)> {
-        let i = v.index().checked_sub(self.first_steiner)?;
-        let &(s, t) = self.steiner.get(i)?;
-        Some((self.ends[s as usize], t))
-    }
-
-    /// The vertices of segment `s` from its first end to its second.
-    pub fn chain(&self, s: u32) -> impl DoubleEndedIterator<Item = VertexId> + '_ {
-        self.chains[s as usize].iter().map(|&(_, v)| v)
-    }
-
-    /// The vertices of the segment ab of the input, from a to b.
-    pub fn chain_between(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> Vec<VertexId> {
-        let s = index.find(a, b).expect("every polygon edge is a segment");
-        let chain = self.chain(s);
-        if self.ends[s as usize][0] == a {
-            chain.collect()
-        } else {
-            chain.rev().collect()
-        }
-    }
-
-    /// How many Steiner points there are.
-    pub fn steiner_count(&self) -> usize {
-        self.steiner.len()
-    }
-
-    /// The parameter of a vertex of segment s.
-    fn parameter(&self, s: u32, v: VertexId) -> f64 {
-        match v.index().checked_sub(self.first_steiner) {
-            Some(i) => self.steiner[i].1,
-            None if v == self.ends[s as usize][0] => 0.0,
-            None => 1.0,
-        }
-    }
-
-    /// Divides the subsegment ab of segment s at v, which has the parameter t.
-    fn split(&mut self, s: u32, [a, b]: [VertexId; 2], t: f64, v: VertexId) -> [[VertexId; 2]; 2] {
-        self.of.remove(&key(a, b));
-        self.of.insert(key(a, v), s);
-        self.of.insert(key(v, b), s);
-        debug_assert_eq!(v.index(), self.first_steiner + self.steiner.len());
-        self.steiner.push((s, t));
-        self.chains[s as usize].push((t, v));
-        [[a, v], [v, b]]
-    }
-
-    /// Brings the chains into order, once all Steiner points are there.
-    fn finish(&mut self) {
-        for chain in &mut self.chains {
-            chain.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
-        }
-    }
-}
-
-/// Finds a segment of the input by its ends.
-#[derive(Clone, Debug)]
-pub struct SegmentIndex(FxHashMap<[VertexId; 2], u32>);
-
-impl SegmentIndex {
-    /// The index of a complex.
-    pub fn new(complex: &Complex) -> SegmentIndex {
-        let segments = complex.segments.iter().enumerate();
-        SegmentIndex(
-            segments
-                .map(|(i, s)| (key(s.ends[0], s.ends[1]), i as u32))
-                .collect(),
-        )
-    }
-
-    fn find(&self, a: VertexId, b: VertexId) -> Option<u32> {
-        self.0.get(&key(a, b)).copied()
-    }
-}
-
-fn key(a: VertexId, b: VertexId) -> [VertexId; 2] {
-    if a < b { [a, b] } else { [b, a] }
-}
+use std::collections::BinaryHeap;
 
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
 ///
@@ -155,39 +40,118 @@ pub fn recover_segments<P: PointStore>(
     points: &mut P,
     delaunay: &mut Delaunay,
 ) -> Result<(Subsegments, Incidence), Failure> {
-    let incidence = Incidence::new(&delaunay.mesh, points.len());
-    let mut recovery = SegmentRecovery {
-        subsegments: Subsegments::new(complex, points.len()),
-        points,
-        delaunay,
-        incidence,
-        missing: Vec::new(),
+    let first = points.len();
+    let subsegments = Subsegments::new(complex, first);
+    let index = SegmentIndex::new(complex);
+    let incidence = Incidence::new(&delaunay.mesh, first);
+    let missing = |&[a, b]: &[VertexId; 2]| {
+        let start = incidence.tet_at(a).expect("every vertex is in the mesh");
+        !matches!(scout(points, &delaunay.mesh, start, a, b), Scouted::Edge(_))
     };
-    // The queue is a stack; the first segments of the input come first.
-    for segment in complex.segments.iter().rev() {
-        recovery.missing.push(segment.ends);
+    let missing: Vec<[VertexId; 2]> = subsegments
+        .all_ends()
+        .iter()
+        .copied()
+        .filter(missing)
+        .collect();
+    if missing.is_empty() {
+        return Ok((subsegments, incidence));
     }
-    while let Some([a, b]) = recovery.missing.pop() {
-        recovery.recover(a, b)?;
-    }
-    recovery.subsegments.finish();
-    Ok((recovery.subsegments, recovery.incidence))
+    let mut attempt = |delaunay: &Delaunay, placement| {
+        points.truncate(first);
+        let mut recovery = SegmentRecovery {
+            points: &mut *points,
+            delaunay: delaunay.clone(),
+            incidence: incidence.clone(),
+            subsegments: subsegments.clone(),
+            index: &index,
+            placement,
+            missing: BinaryHeap::new(),
+        };
+        missing.iter().for_each(|&[a, b]| recovery.enqueue(a, b));
+        recovery.run()
+    };
+    let by_rules = attempt(delaunay, Placement::ByRules);
+    let most = match &by_rules {
+        Ok(recovered) => recovered.subsegments.steiner_count(),
+        Err(Failure::GaveUp(_)) => MOST_VERTICES_PER_SEGMENT,
+        Err(_) => return by_rules.map(|r| (r.subsegments, r.incidence)),
+    };
+    let harmless = Placement::Harmless {
+        most,
+        effort: 1_000_000 + 5_000 * most,
+    };
+    let recovered = match (by_rules, attempt(delaunay, harmless)) {
+        (Ok(rules), Ok(harmless)) => {
+            let fewer = harmless.subsegments.steiner_count() < rules.subsegments.steiner_count();
+            if fewer { harmless } else { rules }
+        }
+        (Ok(recovered), _) | (_, Ok(recovered)) => recovered,
+        (Err(failure), _) => return Err(failure),
+    };
+    points.truncate(first);
+    recovered.subsegments.place(points);
+    let recovered = recovered.pruned(points);
+    *delaunay = recovered.delaunay;
+    Ok((recovered.subsegments, recovered.incidence))
 }
 
 /// No valid segment of ordinary input needs so many vertices. Edges that nearly overlap, an ulp apart all along, would
 /// need one every few ulps.
 const MOST_VERTICES_PER_SEGMENT: usize = 1 << 16;
 
-struct SegmentRecovery<'a, P> {
-    points: &'a mut P,
-    delaunay: &'a mut Delaunay,
+/// A tetrahedralization with all segments.
+pub(super) struct Recovered {
+    pub(super) delaunay: Delaunay,
+    pub(super) incidence: Incidence,
+    pub(super) subsegments: Subsegments,
+}
+
+/// Where Steiner points are put.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Placement {
+    /// Where the rules of [`super::split`] say.
+    ByRules,
+    /// Where no other subsegment is destroyed, if such a place is found nearby.
+    Harmless {
+        /// More Steiner points than this are of no use: there is a result with so many.
+        most: usize,
+        /// How many more tetrahedra may be looked at in the search for places.
+        effort: usize,
+    },
+}
+
+pub(super) struct SegmentRecovery<'a, P> {
+    pub(super) points: &'a mut P,
+    pub(super) delaunay: Delaunay,
     incidence: Incidence,
-    subsegments: Subsegments,
-    /// Subsegments to look at.
-    missing: Vec<[VertexId; 2]>,
+    pub(super) subsegments: Subsegments,
+    pub(super) index: &'a SegmentIndex,
+    pub(super) placement: Placement,
+    /// Subsegments to look at, by the bits of their squared length, which are in the order of the lengths.
+    missing: BinaryHeap<(u64, [VertexId; 2])>,
 }
 
 impl<P: PointStore> SegmentRecovery<'_, P> {
+    /// Splits what is missing, the longest first, until nothing is.
+    fn run(mut self) -> Result<Recovered, Failure> {
+        while let Some((_, [a, b])) = self.missing.pop() {
+            self.recover(a, b)?;
+        }
+        self.subsegments.finish();
+        Ok(Recovered {
+            delaunay: self.delaunay,
+            incidence: self.incidence,
+            subsegments: self.subsegments,
+        })
+    }
+
+    fn enqueue(&mut self, a: VertexId, b: VertexId) {
+        let (p, q) = (self.points.rounded(a), self.points.rounded(b));
+        let length = split::distance(p, q);
+        self.missing.push((length.to_bits(), key(a, b)));
+    }
+
     /// Looks for the edge ab; splits it if it is missing. A subsegment that is no longer one is passed over.
     fn recover(&mut self, a: VertexId, b: VertexId) -> Result<(), Failure> {
         let Some(s) = self.subsegments.segment_of(a, b) else {
@@ -201,18 +165,22 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             Scouted::Edge(_) => Ok(()),
             Scouted::Vertex(v) => Err(self.vertex_on_segment(s, v)),
             Scouted::Crosses(first) => {
-                let reference = self.reference(s, first, a, b);
-                self.split(s, a, b, reference)
+                let t = self.place_in(s, first, a, b)?;
+                self.split(s, [a, b], t)
             }
         }
     }
 
     fn vertex_on_segment(&self, s: u32, v: VertexId) -> Failure {
-        let segment = self.subsegments.ends[s as usize];
+        let segment = self.subsegments.ends(s);
         let Some(other) = self.subsegments.segment_of_steiner(v) else {
             return InvalidPlc::VertexOnSegment { segment, vertex: v }.into();
         };
-        let segments = [segment, self.subsegments.ends[other as usize]];
+        if other == s {
+            // Rounding has put the vertices of one segment into the wrong order.
+            return self.too_short(segment);
+        }
+        let segments = [segment, self.subsegments.ends(other)];
         if segments_meet(self.points, segments) {
             InvalidPlc::SegmentsMeet { segments }.into()
         } else {
@@ -223,7 +191,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
     /// A segment that cannot be divided any more: if a vertex of the input lies on it or another segment meets it, that
     /// is why. Linear time, on the way out.
     fn too_short(&self, segment: [VertexId; 2]) -> Failure {
-        let inputs = (0..self.subsegments.first_steiner).map(VertexId::new);
+        let inputs = (0..self.subsegments.first_steiner()).map(VertexId::new);
         let mut in_mesh =
             inputs.filter(|&v| self.incidence.tet_at(v).is_some() && !segment.contains(&v));
         if let Some(vertex) = in_mesh.find(|&v| lies_between(self.points, segment, v)) {
@@ -232,7 +200,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         let shares_end = |other: &[VertexId; 2]| other.iter().any(|v| segment.contains(v));
         let mut others = self
             .subsegments
-            .ends
+            .all_ends()
             .iter()
             .filter(|other| !shares_end(other));
         match others.find(|&&other| segments_meet(self.points, [segment, other])) {
@@ -254,27 +222,32 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             .filter(|&v| v != a && v != b)
             .map(|v| (split::sight(self.points.rounded(v), pa, pb), v));
         let (_, v) = seen.min_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)))?;
-        let ends = self.subsegments.ends[s as usize];
-        let theirs = self
-            .subsegments
-            .segment_of_steiner(v)
-            .map(|other| self.subsegments.ends[other as usize]);
-        let shares = theirs.and_then(|theirs| (0..2).find(|&i| theirs.contains(&ends[i])));
+        let shares = self.shared_end(s, v);
         Some(Reference {
             point: self.points.rounded(v),
             shares,
         })
     }
 
-    fn split(
-        &mut self,
-        s: u32,
-        a: VertexId,
-        b: VertexId,
-        reference: Option<Reference>,
-    ) -> Result<(), Failure> {
-        let ends = self.subsegments.ends[s as usize];
-        if self.subsegments.chains[s as usize].len() >= MOST_VERTICES_PER_SEGMENT {
+    /// Which end of segment s the vertex v has in common with it: v is on, or an end of, another segment from there.
+    pub(super) fn shared_end(&self, s: u32, v: VertexId) -> Option<usize> {
+        let ends = self.subsegments.ends(s);
+        match self.subsegments.segment_of_steiner(v) {
+            Some(other) => (0..2).find(|&i| self.subsegments.ends(other).contains(&ends[i])),
+            None => (0..2).find(|&i| self.index.find(v, ends[i]).is_some()),
+        }
+    }
+
+    /// Where to split the missing subsegment ab of segment s.
+    fn place_in(&mut self, s: u32, first: TetId, a: VertexId, b: VertexId) -> Result<f64, Failure> {
+        let ends = self.subsegments.ends(s);
+        let count = self.subsegments.steiner_count();
+        let vertices = self.subsegments.vertices_on(s);
+        let useless = match self.placement {
+            Placement::ByRules => false,
+            Placement::Harmless { most, effort } => count >= most || effort == 0,
+        };
+        if useless || vertices >= MOST_VERTICES_PER_SEGMENT {
             let segment = ends;
             return Err(GaveUp::TooManySteinerPoints { segment }.into());
         }
@@ -283,8 +256,19 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         let subsegment = Subsegment {
             ends: ends.map(|v| self.points.rounded(v)),
             range,
+            vertices,
         };
+        let reference = self.reference(s, first, a, b);
         let t = split_parameter(&subsegment, reference).ok_or_else(|| self.too_short(ends))?;
+        Ok(match self.placement {
+            Placement::ByRules => t,
+            Placement::Harmless { .. } => self.harmless(s, [a, b], &subsegment, t, first),
+        })
+    }
+
+    /// Splits the subsegment ab of segment s at the parameter t.
+    fn split(&mut self, s: u32, [a, b]: [VertexId; 2], t: f64) -> Result<(), Failure> {
+        let ends = self.subsegments.ends(s);
         let v = self.points.push_on_segment(ends[0], ends[1], t);
         if let Some(near) = self.incidence.tet_at(a) {
             self.delaunay.start_at(near);
@@ -304,23 +288,28 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         self.delaunay.replace_conflicts(v);
         self.incidence
             .update(&self.delaunay.mesh, self.delaunay.created());
-        self.missing.extend(self.subsegments.split(s, [a, b], t, v));
+        for [a, b] in self.subsegments.split(s, [a, b], t, v) {
+            self.enqueue(a, b);
+        }
         Ok(())
     }
 
     /// Every subsegment among the edges of the conflict zone may be about to vanish.
     fn queue_endangered(&mut self) {
-        for &t in self.delaunay.conflicts() {
-            for [a, b] in edges_of(&self.delaunay.mesh, t) {
-                if self.subsegments.segment_of(a, b).is_some() {
-                    self.missing.push([a, b]);
-                }
-            }
+        let mesh = &self.delaunay.mesh;
+        let edges = self
+            .delaunay
+            .conflicts()
+            .iter()
+            .flat_map(|&t| edges_of(mesh, t));
+        let endangered = edges.filter(|&[a, b]| self.subsegments.segment_of(a, b).is_some());
+        for [a, b] in endangered.collect::<Vec<_>>() {
+            self.enqueue(a, b);
         }
     }
 }
 
-fn edges_of(mesh: &TetMesh, t: TetId) -> [[VertexId; 2]; 6] {
+pub(super) fn edges_of(mesh: &TetMesh, t: TetId) -> [[VertexId; 2]; 6] {
     let [a, b, c, d] = mesh.vertices(t);
     [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]
 }

@@ -12,6 +12,8 @@ pub struct Subsegment {
     pub ends: [[f64; 3]; 2],
     /// The parameters of the subsegment's ends, 0 ≤ t0 < t1 ≤ 1.
     pub range: [f64; 2],
+    /// How many vertices the segment has by now, its ends included.
+    pub vertices: usize,
 }
 
 /// The vertex that encroaches upon the subsegment most: the one that sees it under the largest angle.
@@ -19,7 +21,7 @@ pub struct Subsegment {
 pub struct Reference {
     /// Its coordinates.
     pub point: [f64; 3],
-    /// If it lies on another segment that shares end 0 or 1 of ours, which one.
+    /// If it lies on, or is an end of, another segment that shares end 0 or 1 of ours, which one.
     pub shares: Option<usize>,
 }
 
@@ -30,14 +32,19 @@ const SLACK: f64 = 0.05;
 
 /// The parameter of the new point, strictly inside the range; `None` if the subsegment is too short for doubles.
 ///
-/// 1. If the reference point is a Steiner point on a segment that meets ours at an end: at its distance from that end.
+/// 1. If the reference point is on a segment that meets ours at an end, the hub: at its distance from the hub.
 ///    Two subsegments of equal length at a small angle do not encroach upon each other (an isosceles triangle has acute
-///    base angles), so this ends.
-/// 2. Otherwise the reference point's projection onto the subsegment, or the middle if that is too close to an end.
+///    base angles), so this ends. No bits are saved here: equal distances must be equal up to rounding, or each segment
+///    of a fan has to be split again a little beside the points of each other.
+/// 2. If there already is a point at that distance, and the segment has many: at a distance from the hub that is a short
+///    dyadic number in absolute units, so that all segments of a fan are split on the same spheres. Not at once, because
+///    strips of long triangles, which are no fans, are split best in the middle.
+/// 3. Otherwise the reference point's projection onto the subsegment, or the middle if that is too close to an end.
 pub fn split_parameter(s: &Subsegment, reference: Option<Reference>) -> Option<f64> {
     let [t0, t1] = s.range;
     let length = distance(s.ends[0], s.ends[1]);
     let (t, slack) = same_distance(s, length, reference)
+        .or_else(|| on_shell(s, length, reference))
         .unwrap_or_else(|| (projection(s, reference), SLACK * (t1 - t0)));
     let t = fewest_bits(t, slack);
     (t0 < t && t < t1).then_some(t).or_else(|| {
@@ -57,7 +64,35 @@ fn same_distance(s: &Subsegment, length: f64, reference: Option<Reference>) -> O
     (t0 + margin <= t && t <= t1 - margin).then_some((t, 0.0))
 }
 
+/// From how many vertices on a segment on rule 2 holds.
+const MANY: usize = 4;
+/// How far from both ends rule 2 keeps the new point, as a fraction of the subsegment. At most 1/2.
+const SHELL_MARGIN: f64 = 0.25;
+
 /// Rule 2.
+fn on_shell(s: &Subsegment, length: f64, reference: Option<Reference>) -> Option<(f64, f64)> {
+    let end = reference?.shares?;
+    if s.vertices < MANY {
+        return None;
+    }
+    let [t0, t1] = s.range;
+    let from_hub = |t: f64| if end == 0 { t } else { 1.0 - t };
+    let (x, y) = (from_hub(t0) * length, from_hub(t1) * length);
+    let (near, far) = (x.min(y), x.max(y));
+    let keep = SHELL_MARGIN * (far - near);
+    let mut step = 2f64.powi((far - near).log2().ceil() as i32 + 1);
+    // An interval of half the length has a multiple of a quarter of it.
+    for _ in 0..4 {
+        let radius = ((near + keep) / step).ceil() * step;
+        if radius <= far - keep {
+            return Some((from_hub(radius / length), 0.0));
+        }
+        step *= 0.5;
+    }
+    None
+}
+
+/// Rule 3.
 fn projection(s: &Subsegment, reference: Option<Reference>) -> f64 {
     let [t0, t1] = s.range;
     let middle = 0.5 * (t0 + t1);
@@ -76,7 +111,7 @@ fn projection(s: &Subsegment, reference: Option<Reference>) -> f64 {
 }
 
 /// The number with the fewest bits after the binary point that is within `slack` of t.
-fn fewest_bits(t: f64, slack: f64) -> f64 {
+pub(super) fn fewest_bits(t: f64, slack: f64) -> f64 {
     let mut scale = 1.0;
     while scale < 2f64.powi(52) {
         let rounded = (t * scale).round() / scale;
@@ -95,15 +130,16 @@ pub fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     dot(u, v) / (dot(u, u) * dot(v, v)).sqrt()
 }
 
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+/// The distance of two points.
+pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = sub(a, b);
     dot(d, d).sqrt()
 }
@@ -116,6 +152,7 @@ mod tests {
         Subsegment {
             ends: [[0.0; 3], [10.0, 0.0, 0.0]],
             range: [0.0, 1.0],
+            vertices: 2,
         }
     }
 
@@ -141,6 +178,27 @@ mod tests {
         };
         let t = split_parameter(&whole(), Some(reference)).expect("long enough");
         assert_eq!(t * 10.0, (9.01f64).sqrt());
+    }
+
+    #[test]
+    fn segments_of_a_fan_are_split_on_common_spheres() {
+        let radius = |length: f64| {
+            let s = Subsegment {
+                ends: [[0.0; 3], [length, 0.0, 0.0]],
+                range: [4.0 / length, 7.0 / length],
+                vertices: MANY,
+            };
+            // At the distance of the subsegment's first end.
+            let reference = Reference {
+                point: [4.0, 0.1, 0.0],
+                shares: Some(0),
+            };
+            split_parameter(&s, Some(reference)).expect("long enough") * length
+        };
+        for length in [10.0, 11.3, 12.7] {
+            assert!((radius(length) - 5.0).abs() < 1e-14 || (radius(length) - 6.0).abs() < 1e-14);
+            assert!((radius(length) - radius(10.0)).abs() < 1e-14);
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! in random order, because their order decides the perturbation.
 
 mod boxes;
-mod draw;
+pub mod draw;
 mod generic;
 mod lattice;
 mod near_coplanar;

@@ -1,0 +1,86 @@
+//! Removal of Steiner points that turned out unnecessary.
+//!
+//! A Steiner point can be removed if its two neighbours on the segment are then joined by an edge. Its other edges are no
+//! subsegments, and the edges around its star stay, so nothing else has to be looked at. Every removal is exact, and the
+//! mesh stays the Delaunay tetrahedralization of what is left; no point is left that could be removed alone.
+//!
+//! Each trial tetrahedralizes the neighbours of one point ([`crate::delaunay::filling`]); after a removal those around
+//! are tried again.
+
+use super::segments::Recovered;
+use crate::delaunay::filling;
+use crate::mesh::{Incidence, VertexId};
+use crate::predicate::PointStore;
+
+impl Recovered {
+    /// Without the Steiner points that are not needed. The others keep their order, and with it the perturbation, but
+    /// are numbered anew.
+    pub(super) fn pruned<P: PointStore>(mut self, points: &mut P) -> Recovered {
+        let first = self.subsegments.first_steiner();
+        let count = self.subsegments.steiner_count();
+        let mut gone = vec![false; count];
+        let mut waiting = vec![true; count];
+        // A stack: the last one, which was inserted when least was known, comes first.
+        let mut stack: Vec<usize> = (0..count).collect();
+        while let Some(i) = stack.pop() {
+            waiting[i] = false;
+            if gone[i] {
+                continue;
+            }
+            let Some(neighbours) = self.remove(points, VertexId::new(first + i)) else {
+                continue;
+            };
+            gone[i] = true;
+            for v in neighbours {
+                let Some(j) = v.index().checked_sub(first) else {
+                    continue;
+                };
+                if !gone[j] && !waiting[j] {
+                    waiting[j] = true;
+                    stack.push(j);
+                }
+            }
+        }
+        if gone.contains(&true) {
+            self.renumber(points, &gone);
+        }
+        self
+    }
+
+    /// Removes the Steiner point v if its segment does not need it, and returns the vertices around.
+    fn remove<P: PointStore>(&mut self, points: &P, v: VertexId) -> Option<Vec<VertexId>> {
+        let mesh = &mut self.delaunay.mesh;
+        let [a, b] = self.subsegments.around(v);
+        let mut star = self.incidence.star(mesh, v);
+        star.sort_unstable();
+        let filling = filling(points, mesh, &star, v)?;
+        let joins = |t: &[VertexId; 4]| t.contains(&a) && t.contains(&b);
+        if !filling.iter().any(joins) {
+            return None;
+        }
+        let created = mesh.replace(&star, &filling);
+        self.incidence.update(mesh, &created);
+        self.subsegments.join_at(v);
+        let mut neighbours: Vec<VertexId> = filling
+            .into_iter()
+            .flatten()
+            .filter(|w| !w.is_infinite())
+            .collect();
+        neighbours.sort_unstable();
+        neighbours.dedup();
+        Some(neighbours)
+    }
+
+    fn renumber<P: PointStore>(&mut self, points: &mut P, gone: &[bool]) {
+        let first = self.subsegments.first_steiner();
+        let ids = self.subsegments.compact(gone);
+        points.truncate(first);
+        self.subsegments.place(points);
+        let mesh = &mut self.delaunay.mesh;
+        mesh.rename_vertices(|v| match v.index().checked_sub(first) {
+            Some(i) => ids[i].expect("the mesh has only vertices that are left"),
+            None => v,
+        });
+        self.incidence = Incidence::new(mesh, points.len());
+    }
+}
