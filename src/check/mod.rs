@@ -10,13 +10,13 @@
 //! Surfaces that are open or branch, isolated vertices and coincident ones are notes, not errors.
 //!
 //! A facet that is flat only to rounding is taken for the triangles of a fixed triangulation (that of its projection along
-//! a coordinate axis, [`triangulate`]), which depends on its vertices and edges alone. Its edges are exactly those of the
+//! a coordinate axis, `triangulate`), which depends on its vertices and edges alone. Its edges are exactly those of the
 //! file, so that facets side by side do not intersect by rounding. What it comes to when a part lies within rounding of such
 //! a facet, but not on those triangles, is not decided here.
 //!
 //! # Method
 //! Facets are triangulated. Pairs of simplices (vertices, edges, triangles) without a common vertex are found by dividing
-//! space ([`tree`]) and tested exactly ([`contact`]). That is enough, with equal edges and triangles found by sorting:
+//! space (`tree`) and tested exactly (`contact`). That is enough, with equal edges and triangles found by sorting:
 //!
 //! *Two triangles* that intersect elsewhere than in common vertices and edges show it in two of their faces without a
 //! common vertex. (1) With no common vertex, it is two of their closed edges, or an edge and the other triangle, or a
@@ -28,9 +28,9 @@
 //! edge opposite to v.
 //!
 //! Conversely every such contact of different parts is a conflict. Pairs of parts in contact are then examined
-//! exactly ([`meet`]) for the kind of their conflict and a point of their intersection.
+//! exactly (`meet`) for the kind of their conflict and a point of their intersection.
 //!
-//! O(n log n + c) for n simplices of bounded overlap and c contacts; see [`tree`] for what else there can be.
+//! O(n log n + c) for n simplices of bounded overlap and c contacts; see `tree` for what else there can be.
 
 mod contact;
 mod findings;

@@ -9,8 +9,9 @@
 //! Only pairs without a common vertex are wanted. Where all simplices of a cell share a vertex there are none, so that a
 //! fan of any number of triangles costs nothing at its apex.
 //!
-//! O(n log n) for n simplices of bounded overlap. Where cutting does not help, all pairs of the cell are tried, except those
-//! within the simplices that share the commonest vertex.
+//! O(n log n) for n simplices of bounded overlap, and for fans. Where cutting does not help, all pairs of the cell are
+//! tried, except those within the simplices that share the commonest vertex: O(n²) comparisons of boxes for n triangles about
+//! one edge, for instance.
 
 use crate::mesh::VertexId;
 use rustc_hash::FxHashMap;
@@ -171,7 +172,7 @@ impl<'a> Simplices<'a> {
                 halves[1].push(i);
             }
         }
-        helps(list, &halves).then_some(([low, high], halves))
+        self.helps(list, &halves).then_some(([low, high], halves))
     }
 
     /// Two directions at right angles to the longest edge in a list, approximately.
@@ -214,7 +215,28 @@ impl<'a> Simplices<'a> {
             kept.map(|(&i, _)| i).collect()
         };
         let halves = [side(&|r| r.0 <= at), side(&|r| r.1 >= at)];
-        helps(list, &halves).then_some(halves)
+        self.helps(list, &halves).then_some(halves)
+    }
+
+    /// Whether a cut leaves clearly fewer pairs. Pairs that share the commonest vertex count only where that matters: about
+    /// the apex of a fan, which one of the halves has to hold, the simplices of the fan cannot be parted.
+    fn helps(&self, list: &[u32], halves: &[Vec<u32>; 2]) -> bool {
+        /// Shorter lists are compared soon anyway.
+        const LONG: usize = 200;
+        let square = |list: &[u32]| (list.len() as f64).powi(2);
+        let fewer = |count: &dyn Fn(&[u32]) -> f64| {
+            count(&halves[0]) + count(&halves[1]) <= PROGRESS * count(list)
+        };
+        if fewer(&square) || list.len() < LONG {
+            return fewer(&square);
+        }
+        let hub = self.commonest_vertex(list);
+        fewer(&|list: &[u32]| {
+            let at_hub = |i: &&u32| self.corners[**i as usize].contains(&hub);
+            let fan = list.iter().filter(at_hub).count() as f64;
+            let others = list.len() as f64 - fan;
+            others * (others + 2.0 * fan)
+        })
     }
 
     /// Whether a simplex may have a point in a cell. Never wrongly no.
@@ -277,12 +299,6 @@ impl<'a> Simplices<'a> {
             .max_by_key(|&(v, n)| (n, std::cmp::Reverse(v)));
         best.expect("a simplex has vertices").0
     }
-}
-
-/// Whether a cut leaves clearly fewer pairs.
-fn helps(list: &[u32], halves: &[Vec<u32>; 2]) -> bool {
-    let square = |n: usize| (n as f64).powi(2);
-    square(halves[0].len()) + square(halves[1].len()) <= PROGRESS * square(list.len())
 }
 
 /// The range that the part of a triangle in a cell has along a direction; a quarter of it, so that sums do not overflow. The

@@ -196,3 +196,86 @@ impl Sweep<'_> {
         (self.append(chain, p), self.prepend(p, above))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plc::{Complex, Facet, Plc, Projection};
+
+    /// Twice the area and the number of the triangles of one facet, in the plane z = 0 and in either sense; all of them are
+    /// counterclockwise.
+    fn area_and_count(
+        points: &[[f64; 2]],
+        polygons: &[&[u32]],
+        holes: &[[f64; 2]],
+    ) -> (f64, usize) {
+        let space: Vec<_> = points.iter().map(|&[u, v]| [u, v, 0.0]).collect();
+        let of = |reversed: bool| {
+            let polygon = |p: &&[u32]| {
+                let mut ids: Vec<_> = p.iter().map(|&v| VertexId(v)).collect();
+                if reversed {
+                    ids.reverse();
+                }
+                ids
+            };
+            let facet = Facet {
+                polygons: polygons.iter().map(polygon).collect(),
+                holes: holes.iter().map(|&[u, v]| [u, v, 0.0]).collect(),
+                marker: 0,
+            };
+            let plc = Plc {
+                vertices: space.clone(),
+                facets: vec![facet],
+                ..Plc::default()
+            };
+            let complex = Complex::new(&plc, false).unwrap();
+            let polygon = &complex.polygons[0];
+            let corner = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+            let projection = Projection::of(corner).unwrap().0;
+            let points = &space;
+            let plane = Projected { points, projection };
+            let mut triangles = triangulate(&plane, polygon);
+            assert!(triangles.iter().all(|&t| plane.orient(t).is_positive()));
+            let area = |&[a, b, c]: &Triangle| {
+                let [[au, av], [bu, bv], [cu, cv]] = [a, b, c].map(|v| plane.at(v));
+                (bu - au) * (cv - av) - (bv - av) * (cu - au)
+            };
+            let total: f64 = triangles.iter().map(area).sum();
+            triangles.sort_unstable();
+            (total, triangles)
+        };
+        let (area, triangles) = of(false);
+        assert_eq!((area, &triangles), (of(true).0, &of(true).1));
+        (area, triangles.len())
+    }
+
+    #[test]
+    fn combs_holes_slits_and_floating_vertices() {
+        // A comb, whose teeth end in collinear points.
+        let mut comb = vec![[0.0, 0.0]];
+        comb.extend((0..9).map(|i| [f64::from(i), if i % 2 == 0 { 5.0 } else { 1.0 }]));
+        comb.push([8.0, 0.0]);
+        let all: Vec<u32> = (0..11).rev().collect();
+        assert_eq!(area_and_count(&comb, &[&all], &[]), (48.0, 9));
+        let square = |low: f64, high: f64| [[low, low], [high, low], [high, high], [low, high]];
+        let points = [
+            &square(0.0, 9.0)[..],
+            &square(3.0, 6.0),
+            &[[1.0, 1.0], [7.0, 8.0]],
+        ]
+        .concat();
+        let frame: [&[u32]; 2] = [&[0, 1, 2, 3], &[4, 5, 6, 7]];
+        // V − E + F = 2: eight vertices; with the hole 8 triangles, without it 10.
+        assert_eq!(area_and_count(&points, &frame, &[[4.0, 5.0]]), (144.0, 8));
+        assert_eq!(area_and_count(&points, &frame, &[]), (162.0, 10));
+        // A slit from a corner, and a floating vertex.
+        assert_eq!(
+            area_and_count(&points, &[frame[0], &[0, 8], &[9]], &[]),
+            (162.0, 6)
+        );
+        assert_eq!(
+            area_and_count(&points, &[frame[0], &[8, 9], &[4]], &[]),
+            (162.0, 8)
+        );
+    }
+}

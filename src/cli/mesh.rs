@@ -128,8 +128,8 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         Err(failure) => {
             let gave_up = matches!(failure, Failure::GaveUp(_));
             match explanation(&arguments.input, &plc, failure) {
-                // Whatever the algorithm ran into, the input is to blame.
-                Some(why) if gave_up => {
+                // Whatever the algorithm ran into, the input is to blame, and the check names facets more closely.
+                Some(why) if !matches!(failure, Failure::Plc(_)) => {
                     format!("invalid PLC: {why}\n({})", failure.describe(&plc))
                 }
                 Some(why) => format!("{}\n{why}", failure.describe(&plc)),

@@ -314,3 +314,35 @@ fn closed_pipes_do_not_change_the_exit_status() {
         assert_eq!(ended.code(), Some(status), "{arguments}");
     }
 }
+
+#[test]
+fn bad_input_is_explained() {
+    // A small box inside the cube, one face of which lies inside one of the cube's, but is not declared there.
+    let inside: [Point; 2] = [[0.25, 0.25, 0.0], [0.75, 0.75, 0.5]];
+    let place = Place::with(&[
+        ("cube.poly", &poly(&[CUBE], &[])),
+        ("bad.poly", &poly(&[CUBE, inside], &[])),
+    ]);
+    place.run("check cube.poly").ends_with(0);
+    let named = ["facet 1 (1 3 4 2)", "facet 7 (9 11 12 10)", "overlap"];
+    let explained = [&named[..], &["tetflip check bad.poly"]].concat();
+    place.refuses("mesh bad.poly -o x.node", 2, &explained);
+    place.run("check bad.poly").ends_with(2);
+    place.run("check bad.poly -o bad.vtu --max 1").ends_with(2);
+    let picture = String::from_utf8(place.bytes("bad.vtu")).expect("UTF-8");
+    assert!(picture.contains(r#"Name="pair""#) && picture.trim_end().ends_with("</VTKFile>"));
+    place.refuses("check bad.poly -o bad.ele", 2, &["bad.ele", ".vtu"]);
+    place.refuses("check none.poly", 2, &["none.poly", "cannot read"]);
+    let output = Command::new(env!("CARGO_BIN_EXE_tetflip"))
+        .args(["check", "bad.poly", "--json"])
+        .current_dir(place.directory.path())
+        .output()
+        .expect("the program starts");
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(found["valid"], false);
+    let conflicts = found["conflicts"].as_array().expect("a list");
+    assert_eq!(conflicts[0]["kind"], "facets-overlap");
+    assert_eq!(conflicts[0]["parts"][1]["facet"], 7);
+    // The face itself, and the four beside it that stand on it.
+    assert_eq!(conflicts.len(), 5);
+}
