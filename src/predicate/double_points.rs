@@ -278,9 +278,18 @@ impl PointStore for DoublePoints {
     }
 
     fn reordered(&self, order: &[VertexId]) -> DoublePoints {
+        let mut points: Vec<[f64; 3]> = order.iter().map(|v| self.points[v.index()]).collect();
+        let mut segment_points = Vec::new();
+        if !self.segment_points.is_empty() {
+            for (i, p) in points.iter_mut().enumerate().filter(|(_, p)| p[0].is_nan()) {
+                let point = self.segment_points[p[2] as usize].1.clone();
+                p[2] = segment_points.len() as f64;
+                segment_points.push((i, point));
+            }
+        }
         DoublePoints {
-            points: order.iter().map(|v| self.points[v.index()]).collect(),
-            segment_points: self.segment_points.clone(),
+            points,
+            segment_points,
             steiner: self.steiner,
             identities: Some(order.iter().map(|&v| self.identity(v)).collect()),
             range: self.range,

@@ -11,7 +11,7 @@ mod segment_point;
 mod store;
 
 pub use double_points::DoublePoints;
-pub use naive::NaivePoints;
+pub use naive::{NaivePoints, RoundedSpheres};
 pub use perturbation::perturbed_sign;
 pub use segment_point::Steiner;
 pub use store::PointStore;

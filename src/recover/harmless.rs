@@ -6,15 +6,15 @@
 //! the rules prevail: the least harm now is not the least in the end, because a point in an odd place forces others into
 //! odd places.
 //!
-//! All of this is exact, and a choice only: wherever the point is put, recovery stays correct. It ends because the
-//! effort is bounded ([`super::segments::Placement`]).
+//! All of this is a choice only: wherever the point is put, recovery stays correct. So the trials are made with rounded
+//! points and spheres, and may err. The search ends because the effort is bounded ([`super::segments::Placement`]).
 
 use super::scout::crossed_by;
 use super::segments::{Placement, SegmentRecovery, edges_of};
 use super::split::{Subsegment, distance, dot, fewest_bits, sub};
 use super::subsegments::key;
 use crate::mesh::{TetId, VertexId};
-use crate::predicate::PointStore;
+use crate::predicate::{PointStore, RoundedSpheres};
 use rustc_hash::FxHashSet;
 
 /// Dyadic places are multiples of this part of the subsegment.
@@ -91,7 +91,10 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         first: TetId,
     ) -> bool {
         let n = self.points.len();
-        let v = self.points.push_on_segment(ends[0], ends[1], t);
+        let [p, q] = ends.map(|v| self.points.rounded(v));
+        let v = self
+            .points
+            .push([0, 1, 2].map(|i| p[i] + t * (q[i] - p[i])));
         self.delaunay.start_at(first);
         let start = self.delaunay.locate(self.points, v);
         let around = self.delaunay.mesh.vertices(start);
@@ -99,7 +102,8 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             .iter()
             .any(|&w| !w.is_infinite() && self.points.coincide(v, w));
         if is_new {
-            self.delaunay.find_conflicts(self.points, v, start);
+            let seen = RoundedSpheres(&*self.points);
+            self.delaunay.find_conflicts(&seen, v, start);
         }
         self.points.truncate(n);
         if !is_new {
