@@ -177,7 +177,11 @@ fn close_to_edges() -> Plc {
     ];
     let mut plc = common::plc_of_points(corners.to_vec());
     for (i, j) in [(0, 1), (1, 2), (2, 3), (0, 3)] {
-        let near = |k: usize| 0.48 * corners[i][k] + 0.52 * corners[j][k] + 0.01;
+        let near = |k: usize| {
+            let middle = 0.48 * corners[i][k] + 0.52 * corners[j][k];
+            let centre = corners.iter().map(|p| p[k] / 4.0).sum::<f64>();
+            middle + 0.02 * (middle - centre)
+        };
         plc.vertices.push([near(0), near(1), near(2)]);
     }
     plc.facets = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]
@@ -200,7 +204,7 @@ fn polygons_flat_only_to_rounding_are_divided() {
     assert_eq!(report.triangulated_polygons, 0);
 }
 
-/// A tetrahedron with vertices close to its edges: Steiner points are exact, written, read back, and verified.
+/// A tetrahedron with vertices outside, close to its edges: Steiner points are exact, written, read back, and verified.
 #[test]
 fn positions_are_written_and_read() {
     let plc = close_to_edges();
@@ -216,7 +220,7 @@ fn positions_are_written_and_read() {
 
     // A position that is not that of the coordinates is noticed.
     let mut moved = read.clone();
-    moved.exact[0].t *= 0.5;
+    moved.exact[0].t.value *= 0.5;
     assert_eq!(verdict(&plc, &moved).totals.get("wrong position"), Some(&1));
     // Without the positions the vertices are off their segments.
     let doubles = ExportedMesh {

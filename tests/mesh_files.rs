@@ -5,6 +5,7 @@ use std::path::Path;
 use tempfile::TempDir;
 use tetflip::format::{MeshFileError, MeshLineError, UnwritableMesh, read_mesh, write_mesh};
 use tetflip::mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, VertexId};
+use tetflip::predicate::Parameter;
 
 /// Any finite double: every exponent, subnormal, both zeros, and short decimals.
 fn finite() -> impl Strategy<Value = f64> {
@@ -29,12 +30,16 @@ fn mesh() -> impl Strategy<Value = ExportedMesh> {
                 prop::collection::vec((prop::array::uniform3(id.clone()), any::<i32>()), 0..20);
             let edges =
                 prop::collection::vec((prop::array::uniform2(id.clone()), any::<i32>()), 0..20);
-            let exact = prop::collection::vec((id.clone(), [id.clone(), id], finite()), 0..5);
+            let exact =
+                prop::collection::vec((id.clone(), [id.clone(), id], [finite(), finite()]), 0..5);
             (tets, faces, edges, exact).prop_map(move |(tets, faces, edges, exact)| {
                 let (tets, regions): (Vec<_>, Vec<_>) = tets.into_iter().unzip();
                 let face = |(vertices, marker)| ExportedFace { vertices, marker };
                 let edge = |(vertices, marker)| ExportedEdge { vertices, marker };
-                let position = |(vertex, ends, t)| ExactPosition { vertex, ends, t };
+                let position = |(vertex, ends, [value, rest]): (_, _, [f64; 2])| {
+                    let t = Parameter { value, rest };
+                    ExactPosition { vertex, ends, t }
+                };
                 ExportedMesh {
                     first_index,
                     vertices: vertices.clone(),
@@ -204,7 +209,7 @@ fn what_is_written() {
         exact: vec![ExactPosition {
             vertex: VertexId(3),
             ends: ids([0, 1]),
-            t: 0.25,
+            t: 0.25.into(),
         }],
     };
     let directory = TempDir::new().unwrap();

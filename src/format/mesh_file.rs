@@ -173,7 +173,10 @@ fn check(mesh: &ExportedMesh) -> Result<(), UnwritableMesh> {
         first_bad(&mesh.faces, |f| f.vertices.iter().all(exists)).map(UnwritableMesh::Face),
         first_bad(&mesh.edges, |e| e.vertices.iter().all(exists)).map(UnwritableMesh::Edge),
         first_bad(&mesh.exact, |p| {
-            exists(&p.vertex) && p.ends.iter().all(exists) && p.t.is_finite()
+            exists(&p.vertex)
+                && p.ends.iter().all(exists)
+                && p.t.value.is_finite()
+                && p.t.rest.is_finite()
         })
         .map(UnwritableMesh::ExactPosition),
     ];

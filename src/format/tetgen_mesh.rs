@@ -8,7 +8,7 @@
 //! | `.ele` | count, 4, number of attributes | number, four vertices, attributes |
 //! | `.face` | count, whether marked | number, three vertices, mark |
 //! | `.edge` | count, whether marked | number, two vertices, mark |
-//! | `.steiner` | count | vertex, a, b, t: the vertex is exactly at a + t(b−a); our own, only if there are such vertices |
+//! | `.steiner` | count | vertex, a, b, t, perhaps rest: the vertex is exactly at a + (t + rest)(b−a); our own, only if there are such vertices |
 //!
 //! Source: Si, *TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator*, ACM TOMS 41(2), 2015, and the files that
 //! TetGen 1.5.0 writes. The orientation of tetrahedra in its `.ele` files is ours, det[b−a, c−a, d−a] > 0, so
@@ -18,6 +18,7 @@ use super::mesh_file::Shortest;
 use super::text::Text;
 use super::{MeshFileError, MeshLineError, sibling};
 use crate::mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, VertexId};
+use crate::predicate::Parameter;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -75,7 +76,11 @@ pub(super) fn write_steiner(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Res
     let name = |v: VertexId| u64::from(mesh.first_index) + u64::from(v.0);
     for ExactPosition { vertex, ends, t } in &mesh.exact {
         let [a, b] = ends.map(name);
-        writeln!(out, "{} {a} {b} {}", name(*vertex), Shortest(*t))?;
+        write!(out, "{} {a} {b} {}", name(*vertex), Shortest(t.value))?;
+        if t.rest != 0.0 {
+            write!(out, " {}", Shortest(t.rest))?;
+        }
+        writeln!(out)?;
     }
     Ok(())
 }
@@ -196,7 +201,16 @@ fn read_steiner(
     let header = |line: &mut Line| Ok((line.number("the number of exact positions")?, ()));
     source.table(header, |line, ()| {
         let [vertex, a, b] = numbering.vertices(line)?;
-        let t = line.finite("t")?;
+        let value = line.finite("t")?;
+        let rest = match line.number_or("the rest of t", 0.0)? {
+            rest if f64::is_finite(rest) => rest,
+            rest => {
+                let what = "the rest of t";
+                let found = rest.to_string();
+                return Err(MeshLineError::NotFinite { what, found });
+            }
+        };
+        let t = Parameter { value, rest };
         Ok(ExactPosition {
             vertex,
             ends: [a, b],

@@ -2,6 +2,7 @@
 //! and checked by [`crate::verify`], whoever made it.
 
 use super::VertexId;
+use crate::predicate::Parameter;
 
 /// A finished mesh: what `.node/.ele/.face/.edge` files contain.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,7 +31,7 @@ pub struct ExactPosition {
     /// The ends a, b of its segment, vertices whose coordinates are exact.
     pub ends: [VertexId; 2],
     /// t, strictly between 0 and 1.
-    pub t: f64,
+    pub t: Parameter,
 }
 
 /// A triangular face with the marker of its input facet.

@@ -23,7 +23,7 @@
 //! 3. the formula over [`Dyadic`](crate::number::Dyadic), for every finite double.
 
 use super::segment_point::{SegmentPoint, between};
-use super::{PointStore, Steiner, formula};
+use super::{Parameter, PointStore, Steiner, formula};
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use robust::Coord3D;
@@ -335,7 +335,7 @@ impl PointStore for DoublePoints {
 
     /// [`Steiner::Rounded`] rounds each coordinate of p + t(q−p) to a double, so that the point is off the line by about
     /// half an ulp, or not at all where the result is representable. p and q must have double coordinates.
-    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: f64) -> VertexId {
+    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: Parameter) -> VertexId {
         let ends = [p, q].map(|v| self.points[v.index()]);
         let point = match SegmentPoint::new(ends, t) {
             Err(doubles) => return self.push(doubles),
@@ -480,9 +480,9 @@ mod tests {
             let mut store = DoublePoints::new([p, q].concat()).with_steiner(Steiner::Exact);
             let end = |i: u32| VertexId(i);
             let mut steiner: Vec<VertexId> = (0..5u32)
-                .map(|i| store.push_on_segment(end(i), end(5 + i), f64::from(t[i as usize]) / 64.0))
+                .map(|i| store.push_on_segment(end(i), end(5 + i), (f64::from(t[i as usize]) / 64.0).into()))
                 .collect();
-            steiner.push(store.push_on_segment(end(0), end(5), 0.3));
+            steiner.push(store.push_on_segment(end(0), end(5), 0.3.into()));
             steiner.extend((0..10).map(end));
             let exact: Vec<Vec3<Dyadic>> = (0..store.len()).map(|v| store.coordinates(VertexId::new(v))).collect();
             for start in 0..steiner.len() - 4 {

@@ -13,5 +13,5 @@ mod store;
 pub use double_points::DoublePoints;
 pub use naive::{NaivePoints, RoundedSpheres};
 pub use perturbation::perturbed_sign;
-pub use segment_point::Steiner;
+pub use segment_point::{Parameter, Steiner};
 pub use store::PointStore;

@@ -1,7 +1,7 @@
 //! A view of points whose predicates are rounded and trusted: what a program without exact arithmetic would see. For
 //! experiments alone; what is built with it must be judged exactly afterwards.
 
-use super::{PointStore, formula};
+use super::{Parameter, PointStore, formula};
 use crate::mesh::VertexId;
 use crate::number::{Number, Sign, Vec3};
 
@@ -92,7 +92,7 @@ impl<P: PointStore> PointStore for NaivePoints<'_, P> {
         unreachable!("{FIXED}")
     }
 
-    fn push_on_segment(&mut self, _: VertexId, _: VertexId, _: f64) -> VertexId {
+    fn push_on_segment(&mut self, _: VertexId, _: VertexId, _: Parameter) -> VertexId {
         unreachable!("{FIXED}")
     }
 }
@@ -140,7 +140,7 @@ impl<P: PointStore> PointStore for RoundedSpheres<'_, P> {
         unreachable!("{FIXED}")
     }
 
-    fn push_on_segment(&mut self, _: VertexId, _: VertexId, _: f64) -> VertexId {
+    fn push_on_segment(&mut self, _: VertexId, _: VertexId, _: Parameter) -> VertexId {
         unreachable!("{FIXED}")
     }
 }

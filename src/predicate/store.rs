@@ -1,6 +1,6 @@
 //! Where the algorithms get their signs.
 
-use super::{formula, perturbed_sign};
+use super::{Parameter, formula, perturbed_sign};
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
 
@@ -31,7 +31,7 @@ pub trait PointStore {
     fn truncate(&mut self, n: usize);
 
     /// Adds the point p + t(q−p), 0 < t < 1, as exactly as the store's coordinates allow.
-    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: f64) -> VertexId;
+    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: Parameter) -> VertexId;
 
     /// A store of the given points in the given order, which gives each the identity it has here. For locality: an
     /// algorithm that visits vertices in this order finds neighbours close together in memory.

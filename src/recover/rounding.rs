@@ -162,14 +162,14 @@ mod tests {
         let mut points = DoublePoints::new(vertices).with_steiner(Steiner::Exact);
         let [a, b, c, p, q] = [0, 1, 2, 3, 4].map(VertexId);
         // Above the plane z = 1 by less than half an ulp.
-        let v = points.push_on_segment(p, q, 0.1);
+        let v = points.push_on_segment(p, q, 0.1.into());
         assert!(!points.is_double(v));
         assert!(points.orient3d([a, b, c, v]).is_positive());
         let rounding = round(&points, &[[a, b, c, v]]);
         assert_eq!((rounding.moved, &rounding.spoilt[..]), (1, &[][..]));
         assert!(rounding.coordinates[v.index()][2] > 1.0);
         // With another vertex less than an ulp above it, one of the two tetrahedra cannot be saved by one move of v.
-        let w = points.push_on_segment(p, q, 0.11);
+        let w = points.push_on_segment(p, q, 0.11.into());
         let tets = [[a, b, c, v], [a, b, v, w]];
         assert!(tets.iter().all(|&t| points.orient3d(t).is_positive()));
         let rounding = round(&points, &tets);

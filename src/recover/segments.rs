@@ -27,7 +27,7 @@ use crate::error::{Failure, GaveUp, InvalidPlc};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::number::{Dyadic, Exact, Vec3};
 use crate::plc::Complex;
-use crate::predicate::PointStore;
+use crate::predicate::{Parameter, PointStore};
 use std::collections::BinaryHeap;
 
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
@@ -239,7 +239,13 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
     }
 
     /// Where to split the missing subsegment ab of segment s.
-    fn place_in(&mut self, s: u32, first: TetId, a: VertexId, b: VertexId) -> Result<f64, Failure> {
+    fn place_in(
+        &mut self,
+        s: u32,
+        first: TetId,
+        a: VertexId,
+        b: VertexId,
+    ) -> Result<Parameter, Failure> {
         let ends = self.subsegments.ends(s);
         let count = self.subsegments.steiner_count();
         let vertices = self.subsegments.vertices_on(s);
@@ -252,22 +258,25 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             return Err(GaveUp::TooManySteinerPoints { segment }.into());
         }
         let mut range = [a, b].map(|v| self.subsegments.parameter(s, v));
-        range.sort_unstable_by(f64::total_cmp);
+        range.sort_unstable_by(Parameter::order);
         let subsegment = Subsegment {
             ends: ends.map(|v| self.points.rounded(v)),
-            range,
+            range: range.map(|t| t.value),
             vertices,
         };
         let reference = self.reference(s, first, a, b);
-        let t = split_parameter(&subsegment, reference).ok_or_else(|| self.too_short(ends))?;
+        let Some(t) = split_parameter(&subsegment, reference) else {
+            let middle = Parameter::middle(range[0], range[1]);
+            return middle.ok_or_else(|| self.too_short(ends));
+        };
         Ok(match self.placement {
-            Placement::ByRules => t,
-            Placement::Harmless { .. } => self.harmless(s, [a, b], &subsegment, t, first),
+            Placement::ByRules => t.into(),
+            Placement::Harmless { .. } => self.harmless(s, [a, b], &subsegment, t, first).into(),
         })
     }
 
     /// Splits the subsegment ab of segment s at the parameter t.
-    fn split(&mut self, s: u32, [a, b]: [VertexId; 2], t: f64) -> Result<(), Failure> {
+    fn split(&mut self, s: u32, [a, b]: [VertexId; 2], t: Parameter) -> Result<(), Failure> {
         let ends = self.subsegments.ends(s);
         let v = self.points.push_on_segment(ends[0], ends[1], t);
         if let Some(near) = self.incidence.tet_at(a) {

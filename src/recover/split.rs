@@ -30,7 +30,7 @@ const MARGIN: f64 = 0.2;
 /// How far the few-bit parameter may be from the chosen one, as a fraction of the subsegment.
 const SLACK: f64 = 0.05;
 
-/// The parameter of the new point, strictly inside the range; `None` if the subsegment is too short for doubles.
+/// The parameter of the new point, strictly inside the range; `None` if there is no double in it.
 ///
 /// 1. If the reference point is on a segment that meets ours at an end, the hub: at its distance from the hub.
 ///    Two subsegments of equal length at a small angle do not encroach upon each other (an isosceles triangle has acute

@@ -2,7 +2,7 @@
 
 use crate::mesh::VertexId;
 use crate::plc::Complex;
-use crate::predicate::PointStore;
+use crate::predicate::{Parameter, PointStore};
 use rustc_hash::FxHashMap;
 
 /// The segments of a complex and how they are divided into subsegments.
@@ -11,9 +11,9 @@ pub struct Subsegments {
     /// The segment of each subsegment, by its vertices in ascending order.
     of: FxHashMap<[VertexId; 2], u32>,
     /// For each segment its vertices with their parameters; from end to end once recovery is finished.
-    chains: Vec<Vec<(f64, VertexId)>>,
+    chains: Vec<Vec<(Parameter, VertexId)>>,
     /// For each Steiner point, the segment it lies on and its parameter there; indexed from `first_steiner`.
-    steiner: Vec<(u32, f64)>,
+    steiner: Vec<(u32, Parameter)>,
     first_steiner: usize,
     ends: Vec<[VertexId; 2]>,
 }
@@ -29,7 +29,7 @@ impl Subsegments {
                 .collect(),
             chains: ends
                 .iter()
-                .map(|&[a, b]| vec![(0.0, a), (1.0, b)])
+                .map(|&[a, b]| vec![(0.0.into(), a), (1.0.into(), b)])
                 .collect(),
             steiner: Vec::new(),
             first_steiner,
@@ -49,7 +49,7 @@ impl Subsegments {
     }
 
     /// The ends of the segment that a Steiner point lies on and its parameter there; `None` for vertices of the input.
-    pub fn place_of_steiner(&self, v: VertexId) -> Option<([VertexId; 2], f64)> {
+    pub fn place_of_steiner(&self, v: VertexId) -> Option<([VertexId; 2], Parameter)> {
         let i = v.index().checked_sub(self.first_steiner)?;
         let &(s, t) = self.steiner.get(i)?;
         Some((self.ends[s as usize], t))
@@ -78,7 +78,7 @@ impl Subsegments {
 
     /// How many Steiner points lie exactly on their segment.
     pub fn count_exact<P: PointStore>(&self, points: &P) -> usize {
-        let on_segment = |&(i, &(s, _)): &(usize, &(u32, f64))| {
+        let on_segment = |&(i, &(s, _)): &(usize, &(u32, Parameter))| {
             let [p, q] = self.ends(s);
             points.collinear([p, q, VertexId::new(self.first_steiner + i)])
         };
@@ -86,11 +86,11 @@ impl Subsegments {
     }
 
     /// The parameter of a vertex of segment s.
-    pub(super) fn parameter(&self, s: u32, v: VertexId) -> f64 {
+    pub(super) fn parameter(&self, s: u32, v: VertexId) -> Parameter {
         match v.index().checked_sub(self.first_steiner) {
             Some(i) => self.steiner[i].1,
-            None if v == self.ends[s as usize][0] => 0.0,
-            None => 1.0,
+            None if v == self.ends[s as usize][0] => 0.0.into(),
+            None => 1.0.into(),
         }
     }
 
@@ -99,7 +99,7 @@ impl Subsegments {
         &mut self,
         s: u32,
         [a, b]: [VertexId; 2],
-        t: f64,
+        t: Parameter,
         v: VertexId,
     ) -> [[VertexId; 2]; 2] {
         self.of.remove(&key(a, b));
@@ -161,7 +161,7 @@ impl Subsegments {
     fn position(&self, v: VertexId) -> usize {
         let (s, t) = self.steiner[v.index() - self.first_steiner];
         let chain = &self.chains[s as usize];
-        let found = chain.binary_search_by(|x| x.0.total_cmp(&t));
+        let found = chain.binary_search_by(|x| Parameter::order(&x.0, &t));
         found.expect("a Steiner point is on its segment")
     }
 
@@ -196,7 +196,7 @@ impl Subsegments {
     /// Brings the chains into order, once all Steiner points are there.
     pub(super) fn finish(&mut self) {
         for chain in &mut self.chains {
-            chain.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+            chain.sort_unstable_by(|x, y| Parameter::order(&x.0, &y.0));
         }
     }
 }

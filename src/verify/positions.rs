@@ -6,6 +6,7 @@
 use super::{Findings, Place, Violation, ulp};
 use crate::mesh::{ExactPosition, ExportedMesh, VertexId};
 use crate::number::{Dyadic, Exact, Number, Vec3};
+use crate::predicate::Parameter;
 use rustc_hash::FxHashMap;
 
 /// How far the coordinates of a vertex may be from its exact ones, in units in the last place of the largest coordinate:
@@ -38,12 +39,13 @@ pub(super) fn check(
             report(mesh, position, "are no doubles themselves", findings);
             continue;
         }
-        if !(0.0 < t && t < 1.0) {
+        let (zero, one) = (Parameter::from(0.0), Parameter::from(1.0));
+        if !(t.number::<Dyadic>() > zero.number() && t.number::<Dyadic>() < one.number()) {
             report(mesh, position, "is not between them", findings);
             continue;
         }
         let at = |v: VertexId| Vec3::<Dyadic>::from_f64(mesh.vertices[v.index()]);
-        let (a, b, t) = (at(ends[0]), at(ends[1]), Dyadic::from_f64(t));
+        let (a, b, t) = (at(ends[0]), at(ends[1]), t.number::<Dyadic>());
         let along = b.sub(&a);
         let p = Vec3([0, 1, 2].map(|i| along.0[i].clone() * &t + &a.0[i]));
         let off = p.sub(&at(vertex));
@@ -74,7 +76,7 @@ fn report(
     findings.report(Violation::WrongPosition {
         vertex: place(position.vertex),
         ends: position.ends.map(place),
-        t: position.t,
+        t: position.t.value,
         reason,
     });
 }
