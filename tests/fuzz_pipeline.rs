@@ -13,17 +13,17 @@ use std::sync::mpsc;
 use std::time::Duration;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::delaunay::delaunay;
-use tetflip::error::{Failure, GaveUp};
+use tetflip::error::{Failure, GaveUp, InvalidPlc};
 use tetflip::mesh::{ExportedMesh, VertexId};
 use tetflip::number::Bits;
 use tetflip::plc::{Facet, Plc, Region, Segment};
-use tetflip::predicate::DoublePoints;
+use tetflip::predicate::{DoublePoints, Steiner};
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
 /// A run on the inputs of this file takes milliseconds; one that takes this long is taken for endless.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 const INSERTIONS: [Insertion; 7] = [
     Insertion::Cavity,
@@ -47,8 +47,8 @@ fn config(cases: u32) -> ProptestConfig {
     }
 }
 
-/// What came of one insertion.
-type Outcome = Result<ExportedMesh, Failure>;
+/// What came of one insertion: a mesh, and whether it fills the hull.
+type Outcome = Result<(ExportedMesh, bool), Failure>;
 
 /// All insertions, on a thread of their own, so that an endless one fails the test.
 fn run_all(plc: &Plc, keep_hull: bool, merge_coplanar: bool) -> Vec<Outcome> {
@@ -62,7 +62,9 @@ fn run_all(plc: &Plc, keep_hull: bool, merge_coplanar: bool) -> Vec<Outcome> {
                 merge_coplanar,
                 ..Options::default()
             };
-            let outcome = tetrahedralize(&plc, &options, &mut Report::default(), &mut quiet);
+            let mut report = Report::default();
+            let outcome = tetrahedralize(&plc, &options, &mut report, &mut quiet);
+            let outcome = outcome.map(|mesh| (mesh, keep_hull || report.hull_instead));
             if let Err(failure) = &outcome {
                 // Messages are computed from the input's numbers; they must not fail either.
                 assert!(!failure.describe(&plc).is_empty());
@@ -103,11 +105,12 @@ fn accepted(plc: &Plc, mesh: &ExportedMesh, keep_hull: bool) -> Result<(), Strin
     }
 }
 
-/// What must hold for any input. (A mesh of an invalid input with features of a few ulps may be refused: to the verifier's
+/// What must hold for any input, with rounded Steiner points. (A mesh of an invalid input with features of a few ulps may be refused: to the verifier's
 /// tolerance such features are not there.) `valid`: the input is a PLC by construction.
 fn check(plc: &Plc, keep_hull: bool, merge_coplanar: bool, valid: bool) {
+    check_exactly(plc, keep_hull, merge_coplanar);
     let outcomes = run_all(plc, keep_hull, merge_coplanar);
-    let exact: Vec<&ExportedMesh> = outcomes[..3].iter().flatten().collect();
+    let exact: Vec<_> = outcomes[..3].iter().flatten().collect();
     for pair in exact.windows(2) {
         assert_eq!(
             pair[0], pair[1],
@@ -116,8 +119,8 @@ fn check(plc: &Plc, keep_hull: bool, merge_coplanar: bool, valid: bool) {
     }
     for (insertion, outcome) in INSERTIONS.iter().zip(&outcomes) {
         match outcome {
-            Ok(mesh) => {
-                if let Err(why) = accepted(plc, mesh, keep_hull) {
+            Ok((mesh, hull)) => {
+                if let Err(why) = accepted(plc, mesh, *hull) {
                     assert!(
                         !valid && !is_coarse(plc),
                         "{insertion:?} made a mesh that is refused: {why}"
@@ -132,6 +135,73 @@ fn check(plc: &Plc, keep_hull: bool, merge_coplanar: bool, valid: bool) {
             }
             Err(_) => {}
         }
+    }
+}
+
+/// With exact Steiner points a valid PLC has a mesh, which is verified without tolerance, and an invalid one has none:
+/// what is valid is what the check says, which shares no code with the pipeline.
+fn check_exactly(plc: &Plc, keep_hull: bool, merge_coplanar: bool) {
+    let (send, receive) = mpsc::channel();
+    let input = plc.clone();
+    let thread = std::thread::spawn(move || {
+        for insertion in [Insertion::Cavity, Insertion::Flip(Times::Filtered)] {
+            let options = Options {
+                insertion,
+                keep_hull,
+                merge_coplanar,
+                steiner: Steiner::Exact,
+            };
+            let mut report = Report::default();
+            let outcome = tetrahedralize(&input, &options, &mut report, &mut quiet);
+            if send.send((outcome, report.hull_instead)).is_err() {
+                return;
+            }
+        }
+    });
+    let mut outcomes = Vec::new();
+    for _ in 0..2 {
+        match receive.recv_timeout(PATIENCE) {
+            Ok(outcome) => outcomes.push(outcome),
+            Err(mpsc::RecvTimeoutError::Timeout) => panic!("exact Steiner points do not end"),
+            Err(mpsc::RecvTimeoutError::Disconnected) => {
+                std::panic::resume_unwind(thread.join().expect_err("it sends all or panics"))
+            }
+        }
+    }
+    let findings = tetflip::check::check(plc, Some(4));
+    match &outcomes[..] {
+        [(Ok(cavity), hull_instead), (Ok(flips), _)] => {
+            assert_eq!(cavity, flips, "one mesh");
+            assert!(findings.is_valid(), "a mesh of {findings:?}");
+            let domain = match keep_hull || *hull_instead {
+                true => Domain::Hull,
+                false => Domain::Inside,
+            };
+            let options = VerifyOptions {
+                domain,
+                tolerance: 0.0,
+                ..VerifyOptions::default()
+            };
+            let verdict = verify(plc, cavity, options);
+            assert!(verdict.is_ok(), "{verdict}");
+        }
+        [(Err(cavity), _), (Err(flips), _)] => {
+            for failure in [cavity, flips] {
+                let about_points = matches!(
+                    failure,
+                    Failure::Delaunay(_)
+                        | Failure::Invalid(
+                            InvalidPlc::PointOnPolygon { .. } | InvalidPlc::RegionsDisagree { .. }
+                        )
+                        | Failure::Plc(_)
+                );
+                assert!(
+                    about_points || !findings.is_valid(),
+                    "{failure} of a valid PLC"
+                );
+            }
+        }
+        _ => panic!("cavities and flips disagree: {outcomes:?}"),
     }
 }
 

@@ -74,7 +74,9 @@ pub fn recover_segments<P: PointStore>(
     let by_rules = attempt(delaunay, Placement::ByRules);
     let most = match &by_rules {
         Ok(recovered) => recovered.subsegments.steiner_count(),
-        Err(Failure::GaveUp(_)) => MOST_VERTICES_PER_SEGMENT,
+        Err(Failure::GaveUp(GaveUp::SegmentTooShort { .. } | GaveUp::SegmentsTooClose { .. })) => {
+            MOST_VERTICES_PER_SEGMENT
+        }
         Err(_) => return by_rules.map(|r| (r.subsegments, r.incidence)),
     };
     let harmless = Placement::Harmless {
