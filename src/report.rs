@@ -1,5 +1,6 @@
 //! What a run did: counts and seconds per phase, as plain documented structs. The only clock of the library is here.
 
+use crate::recover::flatten::FlatteningCounts;
 use crate::recover::polygons::{Insertion, PolygonCounts};
 use serde::Serialize;
 use std::time::Instant;
@@ -14,6 +15,8 @@ pub enum Phase {
     Delaunay,
     /// Segment recovery.
     Segments,
+    /// Polygons that are flat only to rounding are cut into flat pieces.
+    Flattening,
     /// Polygon insertion.
     Polygons,
     /// Inside and outside, and the arrays for output.
@@ -29,6 +32,8 @@ pub struct Seconds {
     pub delaunay: f64,
     /// Segment recovery.
     pub segments: f64,
+    /// Polygons that are flat only to rounding are cut into flat pieces.
+    pub flattening: f64,
     /// Polygon insertion.
     pub polygons: f64,
     /// Inside and outside, and the arrays for output.
@@ -52,8 +57,10 @@ pub struct Report {
     pub polygons: usize,
     /// Tetrahedra of the Delaunay tetrahedralization of the input's vertices, without ghosts.
     pub delaunay_tets: usize,
-    /// Steiner points, all of them on segments.
+    /// Steiner points, on segments and on polygons.
     pub steiner_points: usize,
+    /// What it took to make all polygons exactly flat.
+    pub flattening: FlatteningCounts,
     /// What polygon insertion did.
     pub insertion_counts: PolygonCounts,
     /// Tetrahedra of the output.
@@ -75,6 +82,7 @@ impl Report {
             Phase::Complex => &mut seconds.complex,
             Phase::Delaunay => &mut seconds.delaunay,
             Phase::Segments => &mut seconds.segments,
+            Phase::Flattening => &mut seconds.flattening,
             Phase::Polygons => &mut seconds.polygons,
             Phase::Domain => &mut seconds.domain,
         } += elapsed;

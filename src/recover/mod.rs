@@ -5,6 +5,7 @@ pub mod cavity;
 pub mod deletion;
 pub mod domain;
 pub mod dump;
+pub mod flatten;
 pub mod flips;
 pub mod gift_wrap;
 mod graft;

@@ -20,7 +20,7 @@ use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::number::{Dyadic, Exact, Vec3};
 use crate::plc::Complex;
 use crate::predicate::PointStore;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The segments of a complex and how they are divided into subsegments.
 #[derive(Clone, Debug, Default)]
@@ -29,8 +29,9 @@ pub struct Subsegments {
     of: FxHashMap<[VertexId; 2], u32>,
     /// For each segment its vertices with their parameters; from end to end once recovery is finished.
     chains: Vec<Vec<(f64, VertexId)>>,
-    /// For each Steiner point, the segment it lies on and its parameter there; indexed from `first_steiner`.
-    steiner: Vec<(u32, f64)>,
+    /// For each Steiner point, the segment it lies on and its parameter there, or `None` if it lies on a polygon; indexed
+    /// from `first_steiner`.
+    steiner: Vec<Option<(u32, f64)>>,
     first_steiner: usize,
     ends: Vec<[VertexId; 2]>,
 }
@@ -59,10 +60,23 @@ impl Subsegments {
         self.of.get(&key(a, b)).copied()
     }
 
-    /// The segment that a Steiner point lies on; `None` for vertices of the input.
+    /// The segment that a Steiner point lies on; `None` for vertices of the input and for Steiner points on polygons.
     pub fn segment_of_steiner(&self, v: VertexId) -> Option<u32> {
         let i = v.index().checked_sub(self.first_steiner)?;
-        self.steiner.get(i).map(|&(s, _)| s)
+        let place = self.steiner.get(i).copied().flatten();
+        place.map(|(s, _)| s)
+    }
+
+    /// Whether a and b are vertices of one segment of the input.
+    pub fn share_segment(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> bool {
+        let is_on = |s: u32, v: VertexId| {
+            self.ends[s as usize].contains(&v) || self.segment_of_steiner(v) == Some(s)
+        };
+        let place = |v: VertexId| self.segment_of_steiner(v);
+        match place(a).or(place(b)) {
+            Some(s) => is_on(s, a) && is_on(s, b),
+            None => index.find(a, b).is_some(),
+        }
     }
 
     /// The vertices of segment `s` from its first end to its second.
@@ -70,9 +84,12 @@ impl Subsegments {
         self.chains[s as usize].iter().map(|&(_, v)| v)
     }
 
-    /// The vertices of the segment ab of the input, from a to b.
+    /// The vertices of the segment ab of the input, from a to b; a and b alone if they are not the ends of one: then ab is
+    /// an edge of a polygon that has been cut.
     pub fn chain_between(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> Vec<VertexId> {
-        let s = index.find(a, b).expect("every polygon edge is a segment");
+        let Some(s) = index.find(a, b) else {
+            return vec![a, b];
+        };
         let chain = self.chain(s);
         if self.ends[s as usize][0] == a {
             chain.collect()
@@ -89,7 +106,7 @@ impl Subsegments {
     /// The parameter of a vertex of segment s.
     fn parameter(&self, s: u32, v: VertexId) -> f64 {
         match v.index().checked_sub(self.first_steiner) {
-            Some(i) => self.steiner[i].1,
+            Some(i) => self.steiner[i].expect("it lies on segment s").1,
             None if v == self.ends[s as usize][0] => 0.0,
             None => 1.0,
         }
@@ -101,7 +118,7 @@ impl Subsegments {
         self.of.insert(key(a, v), s);
         self.of.insert(key(v, b), s);
         debug_assert_eq!(v.index(), self.first_steiner + self.steiner.len());
-        self.steiner.push((s, t));
+        self.steiner.push(Some((s, t)));
         self.chains[s as usize].push((t, v));
         [[a, v], [v, b]]
     }
@@ -155,16 +172,65 @@ pub fn recover_segments<P: PointStore>(
         delaunay,
         incidence,
         missing: Vec::new(),
+        touched: None,
     };
     // The queue is a stack; the first segments of the input come first.
     for segment in complex.segments.iter().rev() {
         recovery.missing.push(segment.ends);
     }
-    while let Some([a, b]) = recovery.missing.pop() {
-        recovery.recover(a, b)?;
-    }
-    recovery.subsegments.finish();
+    recovery.finish()?;
     Ok((recovery.subsegments, recovery.incidence))
+}
+
+/// A request for one more Steiner point.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Steiner {
+    /// Here, on a polygon.
+    Point([f64; 3]),
+    /// Somewhere on this subsegment.
+    Split([VertexId; 2]),
+}
+
+/// What more Steiner points have led to.
+#[derive(Clone, Debug, Default)]
+pub struct Added {
+    /// For each request the new vertex, or `None` if there is a vertex already, or the subsegment is no more.
+    pub vertices: Vec<Option<VertexId>>,
+    /// All vertices whose stars have changed.
+    pub touched: FxHashSet<VertexId>,
+}
+
+/// Inserts more Steiner points, and those with which segments are recovered that these destroy, into a Delaunay
+/// tetrahedralization that has all segments.
+///
+/// # Errors
+/// The same as [`recover_segments`].
+pub fn add_steiner_points<P: PointStore>(
+    requests: &[Steiner],
+    points: &mut P,
+    delaunay: &mut Delaunay,
+    subsegments: &mut Subsegments,
+    incidence: &mut Incidence,
+) -> Result<Added, Failure> {
+    let mut recovery = SegmentRecovery {
+        subsegments: std::mem::take(subsegments),
+        points,
+        delaunay,
+        incidence: std::mem::take(incidence),
+        missing: Vec::new(),
+        touched: Some(FxHashSet::default()),
+    };
+    let mut vertices = Vec::with_capacity(requests.len());
+    for &request in requests {
+        vertices.push(recovery.add(request)?);
+    }
+    recovery.finish()?;
+    *subsegments = recovery.subsegments;
+    *incidence = recovery.incidence;
+    Ok(Added {
+        vertices,
+        touched: recovery.touched.unwrap_or_default(),
+    })
 }
 
 /// No valid segment of ordinary input needs so many vertices. Edges that nearly overlap, an ulp apart all along, would
@@ -178,9 +244,38 @@ struct SegmentRecovery<'a, P> {
     subsegments: Subsegments,
     /// Subsegments to look at.
     missing: Vec<[VertexId; 2]>,
+    /// The vertices whose stars have changed, if that is of interest.
+    touched: Option<FxHashSet<VertexId>>,
 }
 
 impl<P: PointStore> SegmentRecovery<'_, P> {
+    /// Recovers what is missing, and brings the chains into order.
+    fn finish(&mut self) -> Result<(), Failure> {
+        while let Some([a, b]) = self.missing.pop() {
+            self.recover(a, b)?;
+        }
+        self.subsegments.finish();
+        Ok(())
+    }
+
+    fn add(&mut self, request: Steiner) -> Result<Option<VertexId>, Failure> {
+        match request {
+            Steiner::Point(p) => {
+                let v = self.points.push(p);
+                if !self.insert(v) {
+                    self.points.truncate(v.index());
+                    return Ok(None);
+                }
+                self.subsegments.steiner.push(None);
+                Ok(Some(v))
+            }
+            Steiner::Split([a, b]) => match self.subsegments.segment_of(a, b) {
+                Some(s) => self.split(s, a, b, None).map(Some),
+                None => Ok(None),
+            },
+        }
+    }
+
     /// Looks for the edge ab; splits it if it is missing. A subsegment that is no longer one is passed over.
     fn recover(&mut self, a: VertexId, b: VertexId) -> Result<(), Failure> {
         let Some(s) = self.subsegments.segment_of(a, b) else {
@@ -195,7 +290,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             Scouted::Vertex(v) => Err(self.vertex_on_segment(s, v)),
             Scouted::Crosses(first) => {
                 let reference = self.reference(s, first, a, b);
-                self.split(s, a, b, reference)
+                self.split(s, a, b, reference).map(|_| ())
             }
         }
     }
@@ -265,7 +360,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         a: VertexId,
         b: VertexId,
         reference: Option<Reference>,
-    ) -> Result<(), Failure> {
+    ) -> Result<VertexId, Failure> {
         let ends = self.subsegments.ends[s as usize];
         if self.subsegments.chains[s as usize].len() >= MOST_VERTICES_PER_SEGMENT {
             let segment = ends;
@@ -282,23 +377,37 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         if let Some(near) = self.incidence.tet_at(a) {
             self.delaunay.start_at(near);
         }
-        let start = self.delaunay.locate(self.points, v);
-        if self
-            .delaunay
-            .mesh
-            .vertices(start)
-            .iter()
-            .any(|&w| !w.is_infinite() && self.points.coincide(v, w))
-        {
+        if !self.insert(v) {
             return Err(self.too_short(ends));
+        }
+        self.missing.extend(self.subsegments.split(s, [a, b], t, v));
+        Ok(v)
+    }
+
+    /// Inserts v, unless there is a vertex where it is.
+    fn insert(&mut self, v: VertexId) -> bool {
+        let start = self.delaunay.locate(self.points, v);
+        let corners = self.delaunay.mesh.vertices(start);
+        let mut finite = corners.iter().filter(|w| !w.is_infinite());
+        if finite.any(|&w| self.points.coincide(v, w)) {
+            return false;
         }
         self.delaunay.find_conflicts(self.points, v, start);
         self.queue_endangered();
+        if let Some(touched) = &mut self.touched {
+            let mesh = &self.delaunay.mesh;
+            touched.extend(
+                self.delaunay
+                    .conflicts()
+                    .iter()
+                    .flat_map(|&t| mesh.vertices(t)),
+            );
+            touched.insert(v);
+        }
         self.delaunay.replace_conflicts(v);
         self.incidence
             .update(&self.delaunay.mesh, self.delaunay.created());
-        self.missing.extend(self.subsegments.split(s, [a, b], t, v));
-        Ok(())
+        true
     }
 
     /// Every subsegment among the edges of the conflict zone may be about to vanish.

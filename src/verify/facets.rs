@@ -13,8 +13,9 @@
 //! The boundary makes the sum of *signed* areas equal to that of the group, so that the second condition holds iff no
 //! face of S is turned over: S is projected one to one onto the group. In a flat facet without rounded points all
 //! candidates together are the only choice. Nearly flat vertices permit thin tetrahedra between candidates ("shims": all four
-//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh, all candidates, those
-//! above all shims, those below all shims.
+//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh; the same without the
+//! boundary faces of shims, which are listed where the convex hull is kept; all candidates; those above all shims; those
+//! below all shims.
 //!
 //! A part of a facet (a cell of [`Area`]) is outside the domain, and exempt, if no candidate lies in it and a step from
 //! one of its convex corners into it enters no tetrahedron. The facets of a PLC intersect in common segments only, so that
@@ -127,6 +128,8 @@ struct Group<'a> {
     /// The edges that were merged away.
     merged: FxHashSet<[VertexId; 2]>,
     vertices: FxHashSet<VertexId>,
+    /// The chains in place of edges that a vertex is on, and where in them.
+    on_chains: FxHashMap<VertexId, Vec<(usize, usize)>>,
 }
 
 /// How a set of faces fails to cover a group.
@@ -157,7 +160,20 @@ impl<'a> Group<'a> {
             .iter()
             .flat_map(|&f| case.input.facets[f].vertices.iter().copied());
         let vertices = own.chain(edges.iter().flatten().copied()).collect();
+        let mut on_chains: FxHashMap<VertexId, Vec<(usize, usize)>> = FxHashMap::default();
+        for &f in &facets {
+            for &e in &case.input.facets[f].edges {
+                if let Fate::Chain(chain) = &fates[e]
+                    && chain.len() > 2
+                {
+                    for (i, &v) in chain.iter().enumerate() {
+                        on_chains.entry(v).or_default().push((e, i));
+                    }
+                }
+            }
+        }
         Some(Group {
+            on_chains,
             case,
             facets,
             axes,
@@ -174,12 +190,14 @@ impl<'a> Group<'a> {
             cover.facet_of.entry(f).or_insert(self.facets[0]);
         }
         self.exempt(&candidates, cover, findings);
+        let listed: Vec<usize> = candidates
+            .iter()
+            .copied()
+            .filter(|f| listed.contains(f))
+            .collect();
         let choices = [
-            candidates
-                .iter()
-                .copied()
-                .filter(|f| listed.contains(f))
-                .collect(),
+            listed.clone(),
+            self.without_hull_of_shims(listed),
             candidates.clone(),
             self.beyond_shims(&candidates, true),
             self.beyond_shims(&candidates, false),
@@ -196,7 +214,7 @@ impl<'a> Group<'a> {
                     return;
                 }
                 // Of the failures, that of all candidates says most.
-                Some(misfit) if i == 1 => first_misfit = Some(misfit),
+                Some(misfit) if i == 2 => first_misfit = Some(misfit),
                 Some(_) => {}
             }
         }
@@ -231,6 +249,13 @@ impl<'a> Group<'a> {
                     continue;
                 }
                 seen.insert(f);
+                let [a, b, c] = key;
+                if [[a, b], [b, c], [a, c]]
+                    .iter()
+                    .any(|&[v, w]| self.bridges(v, w))
+                {
+                    continue;
+                }
                 if self
                     .areas
                     .iter()
@@ -248,6 +273,18 @@ impl<'a> Group<'a> {
         }
         found.sort_unstable();
         found
+    }
+
+    /// Whether vw bridges vertices of a chain. Where those are rounded, it may be an edge of the mesh, but is none of f.
+    fn bridges(&self, v: VertexId, w: VertexId) -> bool {
+        let (Some(of_v), Some(of_w)) = (self.on_chains.get(&v), self.on_chains.get(&w)) else {
+            return false;
+        };
+        let bridged = |&(e, i): &(usize, usize)| {
+            of_w.iter()
+                .any(|&(other, j)| e == other && i.abs_diff(j) > 1)
+        };
+        of_v.iter().any(bridged)
     }
 
     fn accepts(&self, v: VertexId, memory: &mut FxHashMap<VertexId, bool>) -> bool {
@@ -311,6 +348,18 @@ impl<'a> Group<'a> {
                 area.drop_cell(cell);
             }
         }
+    }
+
+    /// The faces that are not boundary faces of tetrahedra with all four vertices on the group.
+    fn without_hull_of_shims(&self, mut faces: Vec<usize>) -> Vec<usize> {
+        let tables = &self.case.tables;
+        let mut accepted = FxHashMap::default();
+        faces.retain(|&f| {
+            let face = &tables.faces[f];
+            let tet = tables.tets[face.sides[0].0 as usize];
+            face.tets != 1 || !tet.iter().all(|&v| self.accepts(v, &mut accepted))
+        });
+        faces
     }
 
     /// The candidates that have no shim above (or below) them.
