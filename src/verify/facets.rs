@@ -2,7 +2,7 @@
 //!
 //! Facets that share merged edges ([`super::segments`]) form a group. The *candidates* are the mesh faces whose centroid
 //! is inside the projected area of the group and whose vertices are vertices of it: its input vertices, vertices of the
-//! chains that replace its edges, any vertex exactly on its plane, and Steiner points within the tolerance of the plane
+//! chains that replace its edges, and inside the area any vertex exactly on its plane, and Steiner points within the tolerance of the plane
 //! (for facets that are not flat, within the distance of their own vertices from it). They are found by a flood over mesh
 //! faces that starts at the edges of the group.
 //!
@@ -300,7 +300,14 @@ impl<'a> Group<'a> {
                         && self.case.points.near_plane([a, b, c], v, tolerance))
             })
         };
-        self.vertices.contains(&v) || *memory.entry(v).or_insert_with(on_plane)
+        // A vertex of other facets in the same plane makes slivers with vertices on the boundary, partly inside.
+        let is_inside = || {
+            self.areas
+                .iter()
+                .any(|area| area.is_kept(area.cell_at(&[v])))
+        };
+        self.vertices.contains(&v)
+            || *memory.entry(v).or_insert_with(|| on_plane() && is_inside())
     }
 
     /// Takes the parts outside the domain out of the areas. Parts at merged edges are outside together or not at all.

@@ -153,6 +153,7 @@ pub fn flatten<P: PointStore>(
             state.cuts[f] = Some(cut);
         }
         let Some(unsettled) = unsettled else { break };
+        if std::env::var_os("DBG").is_some() { eprintln!("round {round} n={} requests {:?}", points.len(), requests); }
         let polygon = &complex.polygons[unsettled];
         if round == MOST_ROUNDS {
             return Err(not_flat(polygon, NotFlatReason::TooManyPoints));
