@@ -107,7 +107,6 @@ impl Cdt<DoublePoints> {
             )
         });
         report.steiner_points = points.len() - plc.vertices.len();
-        let pieces = pieces?;
         Ok(Cdt {
             points,
             mesh: delaunay.mesh,
@@ -365,6 +364,7 @@ impl Cdt<DoublePoints> {
                 tets: tets.into_iter().map(|(v, _)| v).collect(),
             };
             report.output_tets = mesh.tets.len();
+            report.flattening.shims = self.pieces.count_shims(mesh.tets.iter().copied());
             report.output_faces = mesh.faces.len();
             Ok(mesh)
         })

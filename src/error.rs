@@ -345,9 +345,6 @@ pub enum NotFlatReason {
     /// (paper, Fig. 4).
     #[error("its two sides need incompatible triangulations")]
     Incompatible,
-    /// It has got as many Steiner points as it may, and more would be needed.
-    #[error("it needs too many Steiner points")]
-    TooManyPoints,
     /// Something crosses it that crosses only because of rounding.
     #[error("a constraint crosses it after rounding")]
     Crossed,

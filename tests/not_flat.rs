@@ -7,9 +7,9 @@ mod common;
 
 use common::almost_flat::FAMILIES;
 use common::quiet;
-use std::collections::BTreeMap;
 use tetflip::cdt::{Options, tetrahedralize};
-use tetflip::plc::Plc;
+use tetflip::mesh::VertexId;
+use tetflip::plc::{Facet, Plc};
 use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
@@ -55,63 +55,119 @@ fn is_closed(name: &str) -> bool {
     ["prism", "box", "bar", "boxes"].contains(&name)
 }
 
-/// A sentence without its numbers.
-fn kind(message: &str) -> String {
-    let words = message
-        .split(' ')
-        .filter(|w| !w.contains(|c: char| c.is_ascii_digit()));
-    words.collect::<Vec<_>>().join(" ")
+/// Runs all families; returns a line for each failure.
+fn survey(cases: u64, insertions: &[Insertion]) -> Vec<String> {
+    let mut failures = Vec::new();
+    for (name, family) in FAMILIES {
+        for &insertion in insertions {
+            let mut not_flat = 0;
+            for seed in 0..cases {
+                let keep_hull = !is_closed(name) || seed % 2 == 0;
+                match run(&family(seed), insertion, keep_hull) {
+                    Ok(counts) => not_flat += counts.not_flat,
+                    Err(message) => {
+                        failures.push(format!("{name} {seed} {insertion:?}: {message}"));
+                    }
+                }
+            }
+            assert!(
+                not_flat > 0,
+                "{name} is a family of polygons that are not flat"
+            );
+        }
+    }
+    failures
+}
+
+#[test]
+fn a_few_of_every_family() {
+    assert_eq!(survey(12, &INSERTIONS), Vec::<String>::new());
 }
 
 #[test]
 #[ignore = "minutes"]
-fn survey() {
-    let cases = std::env::var("NOT_FLAT_CASES")
-        .ok()
-        .and_then(|n| n.parse().ok())
-        .unwrap_or(500);
-    let mut failed = 0;
+fn many_of_every_family() {
+    let cases = std::env::var("NOT_FLAT_CASES").ok();
+    let cases = cases.and_then(|n| n.parse().ok()).unwrap_or(500);
+    let failures = survey(cases, &INSERTIONS);
+    for failure in &failures {
+        println!("{failure}");
+    }
+    assert_eq!(failures.len(), 0);
+}
+
+/// Cavities, gift wrapping and flips find the same tetrahedra, as all pieces are flat.
+#[test]
+fn algorithms_agree() {
+    let insertions = [
+        Insertion::Flip(Times::Filtered),
+        Insertion::Flip(Times::Exact),
+        Insertion::Cavity,
+        Insertion::GiftWrap,
+    ];
+    let mut compared = 0;
     for (name, family) in FAMILIES {
-        for insertion in INSERTIONS {
-            let mut failures: BTreeMap<String, Vec<u64>> = BTreeMap::new();
-            let (mut not_flat, mut shims) = (0, 0);
-            for seed in 0..cases {
-                let keep_hull = !is_closed(name) || seed % 2 == 0;
-                if std::env::var("ONLY").is_ok_and(|o| o != name)
-                    || std::env::var("SEED").is_ok_and(|s| s != seed.to_string())
-                {
-                    continue;
-                }
-                let start = std::time::Instant::now();
-                let r = run(&family(seed), insertion, keep_hull);
-                if start.elapsed().as_secs_f64() > 2.0 {
-                    println!("{name} {seed}: {:?}", start.elapsed());
-                }
-                match r {
-                    Ok(counts) => {
-                        not_flat += counts.not_flat;
-                        shims += u64::from(counts.shims > 0);
-                    }
-                    Err(message) => {
-                        if std::env::var_os("ONLY").is_some() {
-                            println!("{message}");
-                        }
-                        failures.entry(kind(&message)).or_default().push(seed)
-                    }
-                }
-            }
-            println!(
-                "{name} {insertion:?}: {not_flat} polygons not flat, {shims} meshes with shims"
-            );
-            for (message, seeds) in failures {
-                failed += seeds.len();
-                println!(
-                    "    {} {message}: {:?}",
-                    seeds.len(),
-                    &seeds[..seeds.len().min(8)]
-                );
+        for seed in 0..6 {
+            let mesh = |insertion| {
+                let options = Options {
+                    insertion,
+                    keep_hull: true,
+                    merge_coplanar: true,
+                };
+                let mut report = Report::default();
+                let mesh = tetrahedralize(&family(seed), &options, &mut report, &mut quiet);
+                (
+                    report.flattening.left_whole,
+                    mesh.expect("a valid PLC").tets,
+                )
+            };
+            let [first, others @ ..] = insertions.map(mesh);
+            if first.0 == 0 {
+                assert!(others.iter().all(|mesh| *mesh == first), "{name} {seed}");
+                compared += 1;
             }
         }
     }
-    assert_eq!(failed, 0);
+    assert!(compared > 50);
+}
+
+/// Paper, Fig. 4: neither diagonal of a quadrilateral that is not flat is legal, as p is above it and q below, both in
+/// the circumsphere. It gets a Steiner point.
+#[test]
+fn incompatible_sides_get_a_steiner_point() {
+    let e = 2f64.powi(-48);
+    let quadrilateral = [[-1., 0., e], [0., -1., -e], [1., 0., e], [0., 1., -e]];
+    let facet = Facet {
+        polygons: vec![[0, 1, 2, 3].map(VertexId).to_vec()],
+        ..Facet::default()
+    };
+    let figure = |apexes: &[[f64; 3]]| Plc {
+        vertices: [&quadrilateral[..], apexes].concat(),
+        facets: vec![facet.clone()],
+        ..Plc::default()
+    };
+    let steiner_points = |plc: &Plc, insertion| {
+        let options = Options {
+            insertion,
+            keep_hull: true,
+            merge_coplanar: true,
+        };
+        let mut report = Report::default();
+        let mesh = tetrahedralize(plc, &options, &mut report, &mut quiet).expect("a valid PLC");
+        let options = VerifyOptions {
+            domain: Domain::Hull,
+            ..VerifyOptions::default()
+        };
+        assert!(verify(plc, &mesh, options).is_ok());
+        assert_eq!(report.flattening.not_flat, 1);
+        report.steiner_points
+    };
+    for insertion in INSERTIONS {
+        assert!(steiner_points(&figure(&[[0., 0., 0.25], [0., 0., -0.25]]), insertion) > 0);
+        // With p alone there is no conflict.
+        assert_eq!(
+            steiner_points(&figure(&[[0., 0., 0.25], [0., 0., 2.0]]), insertion),
+            0
+        );
+    }
 }

@@ -152,7 +152,7 @@ pub struct PolygonCounts {
     pub flip_fallbacks: u64,
     /// Polygons with vertices that are not exactly on one plane, which are inserted in exactly flat pieces.
     pub not_flat: u64,
-    /// Shim tetrahedra left: all four vertices on one polygon that is flat only to rounding.
+    /// Shim tetrahedra left: all four vertices on one polygon that is flat only to rounding and was not cut.
     pub shims: u64,
     /// The flips.
     pub flips: FlipCounts,

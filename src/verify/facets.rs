@@ -306,8 +306,7 @@ impl<'a> Group<'a> {
                 .iter()
                 .any(|area| area.is_kept(area.cell_at(&[v])))
         };
-        self.vertices.contains(&v)
-            || *memory.entry(v).or_insert_with(|| on_plane() && is_inside())
+        self.vertices.contains(&v) || *memory.entry(v).or_insert_with(|| on_plane() && is_inside())
     }
 
     /// Takes the parts outside the domain out of the areas. Parts at merged edges are outside together or not at all.

@@ -10,7 +10,8 @@
 //!
 //! # End
 //! Refinement of nearly flat polygons ends in practice for the same reasons as that of segments; it is bounded by
-//! [`MOST_ROUNDS`] and [`MOST_POINTS`] per polygon, and then the polygon is named.
+//! [`MOST_ROUNDS`] and [`MOST_POINTS`]. Beyond those nothing is inserted, and polygons that cannot be cut are left to the
+//! insertion of polygons as they are, which treats their vertices as if they were on one plane, and may refuse them.
 
 mod cut;
 mod plane;
@@ -19,21 +20,20 @@ mod steiner;
 use super::polygons::boundary_subsegments;
 use super::segments::{SegmentIndex, Steiner, Subsegments, add_steiner_points};
 use crate::delaunay::Delaunay;
-use crate::error::{Failure, GaveUp, NotFlatReason};
-use crate::mesh::{Incidence, VertexId};
+use crate::mesh::{Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
 use crate::predicate::PointStore;
 use cut::Cut;
 use plane::Plane;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use serde::Serialize;
 use std::ops::Range;
 
 /// How often Steiner points are inserted and polygons are cut again.
-pub const MOST_ROUNDS: usize = 500;
+pub const MOST_ROUNDS: usize = 200;
 
-/// How many Steiner points one polygon may get.
-pub const MOST_POINTS: usize = 1 << 12;
+/// How many Steiner points may be inserted, besides a quarter of the number of vertices.
+pub const MOST_POINTS: usize = 1000;
 
 /// What it took to make all polygons exactly flat.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug, Serialize)]
@@ -49,7 +49,11 @@ pub struct FlatteningCounts {
     /// Steiner points inserted on segments instead.
     pub points_on_segments: u64,
     /// How often Steiner points were inserted.
-    pub rounds: u64,
+    pub rounds: usize,
+    /// Polygons left as they are, because too many Steiner points would have been necessary.
+    pub left_whole: u64,
+    /// Shim tetrahedra of the output: all four vertices on one polygon that was cut.
+    pub shims: u64,
 }
 
 /// The polygons of a complex in exactly flat pieces.
@@ -87,6 +91,27 @@ impl Pieces {
         self.was_cut[f]
     }
 
+    /// How many of some tetrahedra have all four vertices on one polygon that was cut. Linear time.
+    pub fn count_shims(&self, tets: impl Iterator<Item = [VertexId; 4]>) -> u64 {
+        let mut polygons_at: FxHashMap<VertexId, Vec<usize>> = FxHashMap::default();
+        for f in (0..self.was_cut.len()).filter(|&f| self.was_cut[f]) {
+            for piece in &self.complex.polygons[self.of(f)] {
+                for &v in &piece.vertices {
+                    let at = polygons_at.entry(v).or_default();
+                    if at.last() != Some(&f) {
+                        at.push(f);
+                    }
+                }
+            }
+        }
+        let of = |v: VertexId| polygons_at.get(&v).map_or(&[][..], Vec::as_slice);
+        let is_shim = |[a, b, c, d]: [VertexId; 4]| {
+            let mut shared = of(a).iter();
+            shared.any(|f| [b, c, d].iter().all(|&v| of(v).binary_search(f).is_ok()))
+        };
+        tets.filter(|&t| is_shim(t)).count() as u64
+    }
+
     /// Steiner points inside polygon f.
     pub fn inner_points(&self, f: usize) -> &[VertexId] {
         &self.inner[f]
@@ -94,16 +119,16 @@ impl Pieces {
 }
 
 /// What the polygons of a complex are made of at the moment.
-struct State {
+struct State<'a> {
+    complex: &'a Complex,
+    index: &'a SegmentIndex,
     /// The pieces of polygons that are not flat.
     cuts: Vec<Option<Cut>>,
     inner: Vec<Vec<VertexId>>,
 }
 
-/// Cuts all polygons that are not flat, inserting Steiner points where that is impossible.
-///
-/// # Errors
-/// [`GaveUp::NotFlat`]; those of [`add_steiner_points`].
+/// Cuts all polygons that are not flat, inserting Steiner points where that is impossible. If it would take too many of
+/// those, none is inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]).
 pub fn flatten<P: PointStore>(
     complex: &Complex,
     index: &SegmentIndex,
@@ -112,101 +137,123 @@ pub fn flatten<P: PointStore>(
     subsegments: &mut Subsegments,
     incidence: &mut Incidence,
     counts: &mut FlatteningCounts,
-) -> Result<Pieces, Failure> {
+) -> Pieces {
     let n = complex.polygons.len();
     let mut state = State {
+        complex,
+        index,
         cuts: vec![None; n],
         inner: vec![Vec::new(); n],
     };
-    let mut touched: Option<FxHashSet<VertexId>> = None;
-    for round in 0.. {
-        let mut requests: Vec<(usize, Steiner)> = Vec::new();
-        let mut unsettled = None;
-        for (f, polygon) in complex.polygons.iter().enumerate() {
-            let boundary = boundary_subsegments(subsegments, index, polygon);
-            let vertices = vertices(polygon, &boundary, &state.inner[f]);
-            let is_touched = |t: &FxHashSet<VertexId>| vertices.iter().any(|v| t.contains(v));
-            let is_settled = |cut: &Option<Cut>| cut.as_ref().is_none_or(|cut| cut.bad.is_empty());
-            if !touched.as_ref().is_none_or(is_touched) && is_settled(&state.cuts[f]) {
-                continue;
-            }
-            state.cuts[f] = None;
-            if is_flat(points, polygon, &vertices) {
-                continue;
-            }
-            let cut = cut::cut(
-                points,
-                &delaunay.mesh,
-                incidence,
-                (subsegments, index),
-                polygon,
-                (&boundary, &vertices),
-            );
-            if !cut.bad.is_empty() {
-                unsettled = unsettled.or(Some(f));
-                if state.inner[f].len() >= MOST_POINTS {
-                    return Err(not_flat(polygon, NotFlatReason::TooManyPoints));
-                }
-                let wanted = wanted(points, polygon, &cut, &boundary);
-                requests.extend(wanted.into_iter().map(|request| (f, request)));
-            }
-            state.cuts[f] = Some(cut);
-        }
-        let Some(unsettled) = unsettled else { break };
-        if std::env::var_os("DBG").is_some() { eprintln!("round {round} n={} requests {:?}", points.len(), requests); }
-        let polygon = &complex.polygons[unsettled];
-        if round == MOST_ROUNDS {
-            return Err(not_flat(polygon, NotFlatReason::TooManyPoints));
-        }
+    let mut requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), None);
+    if requests.is_empty() && !state.has_bad() {
+        return state.collect(counts);
+    }
+    let before = points.len();
+    let most = before + MOST_POINTS + before / 4;
+    let saved = (delaunay.clone(), subsegments.clone(), incidence.clone());
+    let mut refined = FlatteningCounts::default();
+    while state.has_bad() {
         let positions: Vec<Steiner> = requests.iter().map(|r| r.1).collect();
-        let added = add_steiner_points(&positions, points, delaunay, subsegments, incidence)?;
-        let mut progress = false;
+        let added = add_steiner_points(&positions, points, delaunay, subsegments, incidence);
+        let added = added.ok().filter(|added| {
+            let progress = added.vertices.iter().any(Option::is_some);
+            progress && points.len() <= most && refined.rounds < MOST_ROUNDS
+        });
+        let Some(added) = added else {
+            (*delaunay, *subsegments, *incidence) = saved;
+            points.truncate(before);
+            state.inner = vec![Vec::new(); n];
+            state.cut_all(points, &delaunay.mesh, (subsegments, incidence), None);
+            return state.collect(counts);
+        };
+        refined.rounds += 1;
         for ((f, request), vertex) in requests.into_iter().zip(added.vertices) {
             let Some(v) = vertex else { continue };
-            progress = true;
             match request {
                 Steiner::Point(_) => {
                     state.inner[f].push(v);
-                    counts.points_on_polygons += 1;
+                    refined.points_on_polygons += 1;
                 }
-                Steiner::Split(_) => counts.points_on_segments += 1,
+                Steiner::Split(_) => refined.points_on_segments += 1,
             }
         }
-        if !progress {
-            return Err(not_flat(polygon, NotFlatReason::Incompatible));
-        }
-        counts.rounds += 1;
-        touched = Some(added.touched);
+        let touched = Some(&added.touched);
+        requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), touched);
     }
-    Ok(collect(complex, state, counts))
+    *counts = refined;
+    state.collect(counts)
 }
 
-fn collect(complex: &Complex, state: State, counts: &mut FlatteningCounts) -> Pieces {
-    let mut polygons = Vec::with_capacity(complex.polygons.len());
-    let mut first = Vec::with_capacity(complex.polygons.len() + 1);
-    let was_cut = state.cuts.iter().map(Option::is_some).collect();
-    for (polygon, cut) in complex.polygons.iter().zip(state.cuts) {
-        first.push(polygons.len());
-        match cut {
-            None => polygons.push(polygon.clone()),
-            Some(cut) => {
-                counts.not_flat += 1;
-                counts.pieces += cut.pieces.len() as u64;
-                counts.choices += cut.choices as u64;
-                polygons.extend(cut.pieces);
+impl State<'_> {
+    /// Cuts all polygons that are not flat, or those with touched vertices only, and returns the Steiner points that they
+    /// want.
+    fn cut_all<P: PointStore>(
+        &mut self,
+        points: &P,
+        mesh: &TetMesh,
+        (subsegments, incidence): (&Subsegments, &Incidence),
+        touched: Option<&FxHashSet<VertexId>>,
+    ) -> Vec<(usize, Steiner)> {
+        let mut requests = Vec::new();
+        for (f, polygon) in self.complex.polygons.iter().enumerate() {
+            let boundary = boundary_subsegments(subsegments, self.index, polygon);
+            let vertices = vertices(polygon, &boundary, &self.inner[f]);
+            let is_touched = |t: &FxHashSet<VertexId>| vertices.iter().any(|v| t.contains(v));
+            let is_bad = self.cuts[f].as_ref().is_some_and(|cut| !cut.bad.is_empty());
+            if !is_bad && !touched.is_none_or(is_touched) {
+                continue;
+            }
+            self.cuts[f] = None;
+            if is_flat(points, polygon, &vertices) {
+                continue;
+            }
+            let of_f = (&boundary[..], &vertices[..]);
+            let constraints = (subsegments, self.index);
+            let cut = cut::cut(points, mesh, incidence, constraints, polygon, of_f);
+            let wanted = wanted(points, polygon, &cut, &boundary);
+            requests.extend(wanted.into_iter().map(|request| (f, request)));
+            self.cuts[f] = Some(cut);
+        }
+        requests
+    }
+
+    fn has_bad(&self) -> bool {
+        self.cuts.iter().flatten().any(|cut| !cut.bad.is_empty())
+    }
+
+    fn collect(self, counts: &mut FlatteningCounts) -> Pieces {
+        let n = self.cuts.len();
+        let mut polygons = Vec::with_capacity(n);
+        let mut first = Vec::with_capacity(n + 1);
+        let was_cut = self.cuts.iter().map(Option::is_some).collect();
+        for (polygon, cut) in self.complex.polygons.iter().zip(self.cuts) {
+            first.push(polygons.len());
+            counts.not_flat += u64::from(cut.is_some());
+            match cut {
+                None => polygons.push(polygon.clone()),
+                Some(cut) if !cut.bad.is_empty() => {
+                    counts.left_whole += 1;
+                    polygons.push(polygon.clone());
+                }
+                Some(cut) => {
+                    counts.pieces += cut.pieces.len() as u64;
+                    counts.choices += cut.choices as u64;
+                    polygons.extend(cut.pieces);
+                }
             }
         }
-    }
-    first.push(polygons.len());
-    Pieces {
-        complex: Complex {
-            representative: Vec::new(),
-            segments: complex.segments.clone(),
-            polygons,
-        },
-        first,
-        was_cut,
-        inner: state.inner,
+        first.push(polygons.len());
+        Pieces {
+            complex: Complex {
+                representative: Vec::new(),
+                segments: self.complex.segments.clone(),
+                polygons,
+            },
+            first,
+            was_cut,
+            inner: self.inner,
+        }
     }
 }
 
@@ -256,9 +303,4 @@ fn wanted<P: PointStore>(
         }
     }
     taken.into_iter().map(|(request, _)| request).collect()
-}
-
-fn not_flat(polygon: &Polygon, reason: NotFlatReason) -> Failure {
-    let facets = polygon.facets.clone();
-    GaveUp::NotFlat { facets, reason }.into()
 }
