@@ -146,8 +146,11 @@ impl Model {
     }
 }
 
+/// A PLC for every seed.
+pub type Family = fn(u64) -> Plc;
+
 /// The families, by name.
-pub const FAMILIES: [(&str, fn(u64) -> Plc); 9] = [
+pub const FAMILIES: [(&str, Family); 9] = [
     ("wheel", wheel),
     ("prism", prism),
     ("box", rotated_box),

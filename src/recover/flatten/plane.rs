@@ -139,7 +139,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
     /// Whether v is inside a closed walk that does not pass through it.
     pub(super) fn is_inside(&self, walk: &[[VertexId; 2]], v: VertexId) -> bool {
         let above = |w: VertexId| {
-            let sign = self.decide(self.difference::<Approx>(v, w)[1].clone(), || {
+            let sign = self.decide(self.difference::<Approx>(v, w)[1], || {
                 self.difference::<Dyadic>(v, w)[1].clone()
             });
             sign.is_positive()
