@@ -10,14 +10,15 @@ use common::quiet;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::mesh::VertexId;
 use tetflip::plc::{Facet, Plc};
-use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
+use tetflip::recover::flatten::FlatteningCounts;
+use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
 const INSERTIONS: [Insertion; 2] = [Insertion::Flip(Times::Filtered), Insertion::Cavity];
 
 /// The mesh's counts, or what went wrong.
-fn run(plc: &Plc, insertion: Insertion, keep_hull: bool) -> Result<PolygonCounts, String> {
+fn run(plc: &Plc, insertion: Insertion, keep_hull: bool) -> Result<FlatteningCounts, String> {
     let options = Options {
         insertion,
         keep_hull,
@@ -40,12 +41,13 @@ fn run(plc: &Plc, insertion: Insertion, keep_hull: bool) -> Result<PolygonCounts
         },
     );
     if verdict.is_ok() {
-        Ok(report.insertion_counts)
+        Ok(report.flattening)
     } else {
         Err(format!(
-            "refused: {:?}: {}",
+            "refused: {:?}: {}; {:?}",
             verdict.totals.keys().collect::<Vec<_>>(),
-            verdict.violations[0]
+            verdict.violations[0],
+            report.flattening
         ))
     }
 }
@@ -60,16 +62,24 @@ fn survey(cases: u64, insertions: &[Insertion]) -> Vec<String> {
     let mut failures = Vec::new();
     for (name, family) in FAMILIES {
         for &insertion in insertions {
-            let mut not_flat = 0;
+            let (mut not_flat, mut refined, mut left_whole, mut shims) = (0, 0, 0, 0);
             for seed in 0..cases {
                 let keep_hull = !is_closed(name) || seed % 2 == 0;
                 match run(&family(seed), insertion, keep_hull) {
-                    Ok(counts) => not_flat += counts.not_flat,
+                    Ok(counts) => {
+                        not_flat += counts.not_flat;
+                        refined += u64::from(counts.rounds > 0);
+                        left_whole += u64::from(counts.left_whole > 0);
+                        shims += u64::from(counts.shims > 0);
+                    }
                     Err(message) => {
                         failures.push(format!("{name} {seed} {insertion:?}: {message}"));
                     }
                 }
             }
+            println!(
+                "{name} {insertion:?}: {not_flat} polygons not flat; meshes with Steiner points for them: {refined}, with some left whole: {left_whole}, with shims: {shims}"
+            );
             assert!(
                 not_flat > 0,
                 "{name} is a family of polygons that are not flat"

@@ -13,9 +13,10 @@
 //! The boundary makes the sum of *signed* areas equal to that of the group, so that the second condition holds iff no
 //! face of S is turned over: S is projected one to one onto the group. In a flat facet without rounded points all
 //! candidates together are the only choice. Nearly flat vertices permit thin tetrahedra between candidates ("shims": all four
-//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh; the same without the
-//! boundary faces of shims, which are listed where the convex hull is kept; all candidates; those above all shims; those
-//! below all shims.
+//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh; the same without
+//! patches of the boundary beyond shims, or without boundary faces of shims, as the convex hull is listed where it is
+//! kept; all candidates; those above all shims; those below all shims. The first that leaves no candidate that is not
+//! locally Delaunay is taken, else the first that covers the group.
 //!
 //! A part of a facet (a cell of [`Area`]) is outside the domain, and exempt, if no candidate lies in it and a step from
 //! one of its convex corners into it enters no tetrahedron. The facets of a PLC intersect in common segments only, so that
@@ -195,28 +196,41 @@ impl<'a> Group<'a> {
             .copied()
             .filter(|f| listed.contains(f))
             .collect();
-        let choices = [
-            listed.clone(),
-            self.without_hull_of_shims(listed),
-            candidates.clone(),
-            self.beyond_shims(&candidates, true),
-            self.beyond_shims(&candidates, false),
-        ];
-        let mut first_misfit = None;
-        for (i, choice) in choices.into_iter().enumerate() {
+        let (mut covering, mut first_misfit) = (None, None);
+        for i in 0..6 {
+            let choice = match i {
+                0 => listed.clone(),
+                1 => self.without_hull_of_shims(&listed),
+                2 => self.without_boundary_of_shims(&listed),
+                3 => candidates.clone(),
+                4 => self.beyond_shims(&candidates, true),
+                _ => self.beyond_shims(&candidates, false),
+            };
             match self.misfit(&choice) {
                 None => {
-                    findings.counts.facets += self.facets.len();
-                    findings.counts.facets_rounded += usize::from(self.is_rounded(&choice));
-                    for face in choice {
-                        cover.constrained[face] = true;
+                    let mut others = candidates
+                        .iter()
+                        .filter(|f| choice.binary_search(f).is_err());
+                    let explains = others.all(|&f| self.is_locally_delaunay(f));
+                    if explains || covering.is_none() {
+                        covering = Some(choice);
                     }
-                    return;
+                    if explains {
+                        break;
+                    }
                 }
                 // Of the failures, that of all candidates says most.
-                Some(misfit) if i == 2 => first_misfit = Some(misfit),
+                Some(misfit) if i == 3 => first_misfit = Some(misfit),
                 Some(_) => {}
             }
+        }
+        if let Some(choice) = covering {
+            findings.counts.facets += self.facets.len();
+            findings.counts.facets_rounded += usize::from(self.is_rounded(&choice));
+            for face in choice {
+                cover.constrained[face] = true;
+            }
+            return;
         }
         let facets = self.facets.clone();
         findings.report(match first_misfit.expect("all candidates were tried") {
@@ -356,16 +370,69 @@ impl<'a> Group<'a> {
         }
     }
 
+    /// The faces without those patches, between edges at which more than two meet, that are all boundary: where the
+    /// convex hull is kept, shims may lie between the group and the hull, whose faces are listed, too.
+    fn without_hull_of_shims(&self, faces: &[usize]) -> Vec<usize> {
+        let tables = &self.case.tables;
+        let edges = |f: usize| {
+            let [a, b, c] = tables.faces[f].key;
+            [[a, b], [b, c], [a, c]]
+        };
+        let boundary: FxHashSet<[VertexId; 2]> = self
+            .areas
+            .iter()
+            .flat_map(Area::boundary)
+            .map(sorted2)
+            .collect();
+        let mut at: FxHashMap<[VertexId; 2], Vec<usize>> = FxHashMap::default();
+        for &f in faces {
+            for edge in edges(f) {
+                at.entry(edge).or_default().push(f);
+            }
+        }
+        let is_crowded = |e: &[VertexId; 2]| at[e].len() > 2 - usize::from(boundary.contains(e));
+        let mut seen: FxHashSet<usize> = FxHashSet::default();
+        let mut kept = Vec::new();
+        for &start in faces {
+            let mut patch = Vec::new();
+            let mut stack = vec![start];
+            while let Some(f) = stack.pop() {
+                if seen.insert(f) {
+                    patch.push(f);
+                    let quiet = edges(f).into_iter().filter(|e| !is_crowded(e));
+                    stack.extend(quiet.flat_map(|e| at[&e].iter().copied()));
+                }
+            }
+            let on_hull = patch.iter().all(|&f| tables.faces[f].tets == 1);
+            let crowded = patch.iter().any(|&f| edges(f).iter().any(is_crowded));
+            if !(on_hull && crowded) {
+                kept.extend(patch);
+            }
+        }
+        kept.sort_unstable();
+        kept
+    }
+
     /// The faces that are not boundary faces of tetrahedra with all four vertices on the group.
-    fn without_hull_of_shims(&self, mut faces: Vec<usize>) -> Vec<usize> {
+    fn without_boundary_of_shims(&self, faces: &[usize]) -> Vec<usize> {
         let tables = &self.case.tables;
         let mut accepted = FxHashMap::default();
-        faces.retain(|&f| {
+        let mut kept = faces.to_vec();
+        kept.retain(|&f| {
             let face = &tables.faces[f];
             let tet = tables.tets[face.sides[0].0 as usize];
             face.tets != 1 || !tet.iter().all(|&v| self.accepts(v, &mut accepted))
         });
-        faces
+        kept
+    }
+
+    /// Whether a face need not be on a facet for the mesh to be right there.
+    fn is_locally_delaunay(&self, f: usize) -> bool {
+        let face = &self.case.tables.faces[f];
+        let [a, b] = face.sides;
+        let [p, q, r, s] = self.case.tables.tets[a.0 as usize];
+        let apex = self.case.tables.apex(b);
+        face.tets != 2 || !self.case.points.insphere([p, q, r, s, apex]).is_positive()
     }
 
     /// The candidates that have no shim above (or below) them.
