@@ -15,6 +15,7 @@ use crate::recover::cavity::face;
 use crate::recover::deletion::{DeletionCounts, PolygonDeletion};
 use crate::recover::domain::{DomainMarks, keeps_edge, mark_domain};
 use crate::recover::embedding::check_embedding;
+use crate::recover::flatten::{Pieces, flatten};
 use crate::recover::flips::Watch;
 use crate::recover::polygons::{
     Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons, Times,
@@ -65,7 +66,9 @@ pub struct Cdt<P = DoublePoints> {
     subsegments: Subsegments,
     index: SegmentIndex,
     subpolygons: Subpolygons,
-    /// Which polygons of the complex are in the mesh.
+    /// The polygons of the complex in exactly flat pieces.
+    pieces: Pieces,
+    /// Which pieces are in the mesh.
     inserted: Vec<bool>,
     scratch: Scratch,
 }
@@ -119,16 +122,30 @@ impl Cdt<DoublePoints> {
         });
         report.steiner_points = points.len() - plc.vertices.len();
         report.steiner_not_doubles = points.no_doubles();
-        let (subsegments, incidence) = recovered?;
+        let (mut subsegments, mut incidence) = recovered?;
         report.steiner_points_on_segment = subsegments.count_exact(&points);
+        let index = SegmentIndex::new(&complex);
+        let pieces = report.time(Phase::Flattening, |report| {
+            flatten(
+                &complex,
+                &index,
+                &mut points,
+                &mut delaunay,
+                &mut subsegments,
+                &mut incidence,
+                &mut report.flattening,
+            )
+        });
+        report.steiner_points = points.len() - plc.vertices.len();
         Ok(Cdt {
             points,
             mesh: delaunay.mesh,
             incidence,
             subsegments,
-            index: SegmentIndex::new(&complex),
+            index,
             subpolygons: Subpolygons::default(),
-            inserted: vec![false; complex.polygons.len()],
+            inserted: vec![false; pieces.complex.polygons.len()],
+            pieces,
             scratch: Scratch::default(),
             complex,
         })
@@ -161,8 +178,14 @@ impl Cdt<DoublePoints> {
         progress: &mut dyn FnMut(usize),
         watch: Option<&'a mut dyn Watch>,
     ) -> Result<PolygonCounts, Failure> {
-        self.insert(insertion, report, watch, |polygons| {
-            polygons.insert_all(progress)
+        // Progress is told in polygons of the complex.
+        let pieces = self.pieces.clone_firsts();
+        let cut = (0..self.complex.polygons.len()).filter(|&f| self.pieces.is_cut(f));
+        let not_flat = cut.count() as u64;
+        self.insert(insertion, not_flat, report, watch, |polygons| {
+            polygons.insert_all(&mut |done| {
+                progress(pieces.partition_point(|&first| first <= done) - 1)
+            })
         })
     }
 
@@ -180,12 +203,17 @@ impl Cdt<DoublePoints> {
         if f >= self.complex.polygons.len() {
             return Err(Failure::NoSuchPolygon(f));
         }
-        self.insert(insertion, report, None, |polygons| polygons.insert(f))
+        let mut pieces = self.pieces.of(f);
+        let not_flat = u64::from(self.pieces.is_cut(f));
+        self.insert(insertion, not_flat, report, None, |polygons| {
+            pieces.try_for_each(|piece| polygons.insert(piece))
+        })
     }
 
     fn insert<'a>(
         &'a mut self,
         insertion: Insertion,
+        not_flat: u64,
         report: &mut Report,
         watch: Option<&'a mut dyn Watch>,
         run: impl FnOnce(&mut PolygonInsertion<DoublePoints>) -> Result<(), Failure>,
@@ -196,7 +224,7 @@ impl Cdt<DoublePoints> {
                 points: &self.points,
                 mesh: &mut self.mesh,
                 incidence: &mut self.incidence,
-                complex: &self.complex,
+                complex: &self.pieces.complex,
                 subsegments: &self.subsegments,
                 index: &self.index,
                 subpolygons: &mut self.subpolygons,
@@ -208,8 +236,10 @@ impl Cdt<DoublePoints> {
                 watch,
             };
             let result = run(&mut polygons);
-            report.insertion_counts = polygons.counts;
-            result.map(|()| polygons.counts)
+            let mut counts = polygons.counts;
+            counts.not_flat = not_flat;
+            report.insertion_counts = counts;
+            result.map(|()| counts)
         })
     }
 
@@ -266,7 +296,7 @@ impl Cdt<DoublePoints> {
     ) -> Result<DeletionCounts, DeletionRefused> {
         let polygon = self.complex.polygons.get(f);
         let polygon = polygon.ok_or(DeletionRefused::NoSuchPolygon(f))?;
-        if !self.inserted[f] {
+        if !self.is_inserted(f) {
             let facets = polygon.facets.clone();
             return Err(DeletionRefused::NotInserted { facets });
         }
@@ -274,20 +304,38 @@ impl Cdt<DoublePoints> {
             points: &self.points,
             mesh: &mut self.mesh,
             incidence: &mut self.incidence,
-            complex: &self.complex,
+            complex: &self.pieces.complex,
             index: &self.index,
             subsegments: &self.subsegments,
             subpolygons: &mut self.subpolygons,
             scratch: &mut self.scratch,
         };
-        let counts = deletion.delete(f, times)?;
-        self.inserted[f] = false;
-        Ok(counts)
+        let mut counts = DeletionCounts::default();
+        let mut refused = None;
+        for piece in self.pieces.of(f) {
+            match deletion.delete(piece, times) {
+                Ok(of_piece) => {
+                    counts.add(&of_piece);
+                    self.inserted[piece] = false;
+                }
+                Err(reason) => {
+                    refused = Some(reason);
+                    break;
+                }
+            }
+        }
+        let Some(reason) = refused else {
+            return Ok(counts);
+        };
+        // What has been deleted of it can be inserted, as it was.
+        self.insert_polygon(f, Insertion::Flip(Times::Filtered), &mut Report::default())
+            .expect("it was in the mesh");
+        Err(reason)
     }
 
     /// Whether polygon `f` is in the mesh.
     pub fn is_inserted(&self, f: usize) -> bool {
-        self.inserted.get(f).is_some_and(|&inserted| inserted)
+        f < self.complex.polygons.len() && self.inserted[self.pieces.of(f)].iter().all(|&i| i)
     }
 
     /// The polygon that a facet of the input belongs to, possibly with others that are coplanar; `None` if the facet is
@@ -357,6 +405,7 @@ impl Cdt<DoublePoints> {
                 tets: vertices,
             };
             report.output_tets = mesh.tets.len();
+            report.flattening.shims = self.pieces.count_shims(mesh.tets.iter().copied());
             report.output_faces = mesh.faces.len();
             Ok(mesh)
         })
@@ -389,7 +438,8 @@ impl Cdt<DoublePoints> {
                 let vertices = face(self.mesh.facet(c));
                 let polygon = self.subpolygons.get(&vertices);
                 if polygon.is_some() || boundary {
-                    let marker = polygon.map_or(0, |&f| self.complex.polygons[f as usize].marker);
+                    let marker =
+                        polygon.map_or(0, |&f| self.pieces.complex.polygons[f as usize].marker);
                     faces.push(ExportedFace { vertices, marker });
                 }
             }

@@ -1,6 +1,7 @@
 //! What a run did: counts and seconds per phase, as plain documented structs. The only clock of the library is here.
 
 use crate::predicate::Steiner;
+use crate::recover::flatten::FlatteningCounts;
 use crate::recover::polygons::{Insertion, PolygonCounts};
 use serde::Serialize;
 use std::time::Instant;
@@ -15,6 +16,8 @@ pub enum Phase {
     Delaunay,
     /// Segment recovery.
     Segments,
+    /// Polygons that are flat only to rounding are cut into flat pieces.
+    Flattening,
     /// Polygon insertion.
     Polygons,
     /// Inside and outside, and the arrays for output.
@@ -30,6 +33,8 @@ pub struct Seconds {
     pub delaunay: f64,
     /// Segment recovery.
     pub segments: f64,
+    /// Polygons that are flat only to rounding are cut into flat pieces.
+    pub flattening: f64,
     /// Polygon insertion.
     pub polygons: f64,
     /// Inside and outside, and the arrays for output.
@@ -53,7 +58,7 @@ pub struct Report {
     pub polygons: usize,
     /// Tetrahedra of the Delaunay tetrahedralization of the input's vertices, without ghosts.
     pub delaunay_tets: usize,
-    /// Steiner points, all of them on segments.
+    /// Steiner points, on segments and on polygons.
     pub steiner_points: usize,
     /// Those that lie exactly on their segment: where coordinates have bits to spare, rounding changes nothing.
     pub steiner_points_on_segment: usize,
@@ -63,6 +68,8 @@ pub struct Report {
     pub steiner_not_doubles: usize,
     /// Polygons flat only to rounding that were divided into triangles, because Steiner points are exact.
     pub triangulated_polygons: usize,
+    /// What it took to make all polygons exactly flat.
+    pub flattening: FlatteningCounts,
     /// What polygon insertion did.
     pub insertion_counts: PolygonCounts,
     /// Tetrahedra of the output.
@@ -91,6 +98,7 @@ impl Report {
             Phase::Complex => &mut seconds.complex,
             Phase::Delaunay => &mut seconds.delaunay,
             Phase::Segments => &mut seconds.segments,
+            Phase::Flattening => &mut seconds.flattening,
             Phase::Polygons => &mut seconds.polygons,
             Phase::Domain => &mut seconds.domain,
         } += elapsed;

@@ -30,6 +30,16 @@ pub struct DeletionCounts {
     pub flips: FlipCounts,
 }
 
+impl DeletionCounts {
+    /// Adds the counts of another deletion.
+    pub fn add(&mut self, other: &DeletionCounts) {
+        self.subpolygons += other.subpolygons;
+        self.removed += other.removed;
+        self.created += other.created;
+        self.flips.add(&other.flips);
+    }
+}
+
 /// Deletes polygons from a CDT.
 pub struct PolygonDeletion<'a, P> {
     /// The vertices.

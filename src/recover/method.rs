@@ -128,7 +128,7 @@ pub enum Insertion {
 /// What polygon insertion did.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug, Serialize)]
 pub struct PolygonCounts {
-    /// Polygons inserted, reinsertions not counted.
+    /// Polygons inserted, reinsertions not counted; where a polygon is not exactly flat, its pieces.
     pub polygons: u64,
     /// Polygons that were already in the mesh when their turn came.
     pub already_present: u64,
@@ -150,9 +150,9 @@ pub struct PolygonCounts {
     pub gift_wrap_fallbacks: u64,
     /// Cavities and gift wrapping: regions left to exact flips because gift wrapping was refused, too.
     pub flip_fallbacks: u64,
-    /// Polygons with vertices that are not exactly on one plane.
+    /// Polygons with vertices that are not exactly on one plane, which are inserted in exactly flat pieces.
     pub not_flat: u64,
-    /// Shim tetrahedra left: all four vertices on one polygon that is flat only to rounding.
+    /// Shim tetrahedra left: all four vertices on one polygon that is flat only to rounding and was not cut.
     pub shims: u64,
     /// The flips.
     pub flips: FlipCounts,

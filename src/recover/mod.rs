@@ -6,6 +6,7 @@ pub mod deletion;
 pub mod domain;
 pub mod dump;
 pub mod embedding;
+pub mod flatten;
 pub mod flips;
 pub mod gift_wrap;
 mod graft;

@@ -28,6 +28,7 @@ use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::number::{Dyadic, Exact, Vec3};
 use crate::plc::Complex;
 use crate::predicate::{Parameter, PointStore};
+use rustc_hash::FxHashSet;
 use std::collections::BinaryHeap;
 
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
@@ -67,6 +68,7 @@ pub fn recover_segments<P: PointStore>(
             index: &index,
             placement,
             missing: BinaryHeap::new(),
+            touched: None,
         };
         missing.iter().for_each(|&[a, b]| recovery.enqueue(a, b));
         recovery.run()
@@ -96,6 +98,60 @@ pub fn recover_segments<P: PointStore>(
     let recovered = recovered.pruned(points);
     *delaunay = recovered.delaunay;
     Ok((recovered.subsegments, recovered.incidence))
+}
+
+/// A request for one more Steiner point.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Request {
+    /// Here, on a polygon.
+    Point([f64; 3]),
+    /// Somewhere on this subsegment.
+    Split([VertexId; 2]),
+}
+
+/// What more Steiner points have led to.
+#[derive(Clone, Debug, Default)]
+pub struct Added {
+    /// For each request the new vertex, or `None` if there is a vertex already, or the subsegment is no more.
+    pub vertices: Vec<Option<VertexId>>,
+    /// All vertices whose stars have changed.
+    pub touched: FxHashSet<VertexId>,
+}
+
+/// Inserts more Steiner points, and those with which segments are recovered that these destroy, into a Delaunay
+/// tetrahedralization that has all segments.
+///
+/// # Errors
+/// The same as [`recover_segments`].
+pub fn add_steiner_points<P: PointStore>(
+    requests: &[Request],
+    index: &SegmentIndex,
+    points: &mut P,
+    delaunay: &mut Delaunay,
+    subsegments: &mut Subsegments,
+    incidence: &mut Incidence,
+) -> Result<Added, Failure> {
+    let mut recovery = SegmentRecovery {
+        points,
+        delaunay: std::mem::take(delaunay),
+        incidence: std::mem::take(incidence),
+        subsegments: std::mem::take(subsegments),
+        index,
+        placement: Placement::ByRules,
+        missing: BinaryHeap::new(),
+        touched: Some(FxHashSet::default()),
+    };
+    let requests = requests.iter();
+    let vertices: Result<Vec<_>, Failure> = requests.map(|&r| recovery.add(r)).collect();
+    let recovered = vertices.and_then(|vertices| recovery.recover_missing().map(|()| vertices));
+    recovery.subsegments.finish();
+    *delaunay = recovery.delaunay;
+    *subsegments = recovery.subsegments;
+    *incidence = recovery.incidence;
+    Ok(Added {
+        vertices: recovered?,
+        touched: recovery.touched.unwrap_or_default(),
+    })
 }
 
 /// No valid segment of ordinary input needs so many vertices. Edges that nearly overlap, an ulp apart all along, would
@@ -132,20 +188,48 @@ pub(super) struct SegmentRecovery<'a, P> {
     pub(super) placement: Placement,
     /// Subsegments to look at, by the bits of their squared length, which are in the order of the lengths.
     missing: BinaryHeap<(u64, [VertexId; 2])>,
+    /// The vertices whose stars have changed, if that is of interest.
+    touched: Option<FxHashSet<VertexId>>,
 }
 
 impl<P: PointStore> SegmentRecovery<'_, P> {
     /// Splits what is missing, the longest first, until nothing is.
     fn run(mut self) -> Result<Recovered, Failure> {
-        while let Some((_, [a, b])) = self.missing.pop() {
-            self.recover(a, b)?;
-        }
+        self.recover_missing()?;
         self.subsegments.finish();
         Ok(Recovered {
             delaunay: self.delaunay,
             incidence: self.incidence,
             subsegments: self.subsegments,
         })
+    }
+
+    fn recover_missing(&mut self) -> Result<(), Failure> {
+        while let Some((_, [a, b])) = self.missing.pop() {
+            self.recover(a, b)?;
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, request: Request) -> Result<Option<VertexId>, Failure> {
+        match request {
+            Request::Point(p) => {
+                let v = self.points.push(p);
+                if !self.insert(v) {
+                    self.points.truncate(v.index());
+                    return Ok(None);
+                }
+                self.subsegments.push_on_polygon();
+                Ok(Some(v))
+            }
+            Request::Split([a, b]) => {
+                let Some(s) = self.subsegments.segment_of(a, b) else {
+                    return Ok(None);
+                };
+                let t = self.place(s, [a, b], None)?;
+                self.split(s, [a, b], t).map(Some)
+            }
+        }
     }
 
     fn enqueue(&mut self, a: VertexId, b: VertexId) {
@@ -167,8 +251,8 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             Scouted::Edge(_) => Ok(()),
             Scouted::Vertex(v) => Err(self.vertex_on_segment(s, v)),
             Scouted::Crosses(first) => {
-                let t = self.place_in(s, first, a, b)?;
-                self.split(s, [a, b], t)
+                let t = self.place(s, [a, b], Some(first))?;
+                self.split(s, [a, b], t).map(|_| ())
             }
         }
     }
@@ -240,13 +324,12 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         }
     }
 
-    /// Where to split the missing subsegment ab of segment s.
-    fn place_in(
+    /// Where to split the subsegment ab of segment s, which is missing and first crosses `first`, or is there.
+    fn place(
         &mut self,
         s: u32,
-        first: TetId,
-        a: VertexId,
-        b: VertexId,
+        [a, b]: [VertexId; 2],
+        first: Option<TetId>,
     ) -> Result<Parameter, Failure> {
         let ends = self.subsegments.ends(s);
         let count = self.subsegments.steiner_count();
@@ -266,43 +349,54 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             range: range.map(|t| t.value),
             vertices,
         };
-        let reference = self.reference(s, first, a, b);
+        let reference = first.and_then(|first| self.reference(s, first, a, b));
         let Some(t) = split_parameter(&subsegment, reference) else {
             let middle = Parameter::middle(range[0], range[1]);
             return middle.ok_or_else(|| self.too_short(ends));
         };
-        Ok(match self.placement {
-            Placement::ByRules => t.into(),
-            Placement::Harmless { .. } => self.harmless(s, [a, b], &subsegment, t, first).into(),
+        Ok(match (self.placement, first) {
+            (Placement::Harmless { .. }, Some(first)) => {
+                self.harmless(s, [a, b], &subsegment, t, first).into()
+            }
+            _ => t.into(),
         })
     }
 
     /// Splits the subsegment ab of segment s at the parameter t.
-    fn split(&mut self, s: u32, [a, b]: [VertexId; 2], t: Parameter) -> Result<(), Failure> {
+    fn split(&mut self, s: u32, [a, b]: [VertexId; 2], t: Parameter) -> Result<VertexId, Failure> {
         let ends = self.subsegments.ends(s);
         let v = self.points.push_on_segment(ends[0], ends[1], t);
         if let Some(near) = self.incidence.tet_at(a) {
             self.delaunay.start_at(near);
         }
-        let start = self.delaunay.locate(self.points, v);
-        if self
-            .delaunay
-            .mesh
-            .vertices(start)
-            .iter()
-            .any(|&w| !w.is_infinite() && self.points.coincide(v, w))
-        {
+        if !self.insert(v) {
             return Err(self.too_short(ends));
         }
-        self.delaunay.find_conflicts(self.points, v, start);
-        self.queue_endangered();
-        self.delaunay.replace_conflicts(v);
-        self.incidence
-            .update(&self.delaunay.mesh, self.delaunay.created());
         for [a, b] in self.subsegments.split(s, [a, b], t, v) {
             self.enqueue(a, b);
         }
-        Ok(())
+        Ok(v)
+    }
+
+    /// Inserts v, unless there is a vertex where it is.
+    fn insert(&mut self, v: VertexId) -> bool {
+        let start = self.delaunay.locate(self.points, v);
+        let corners = self.delaunay.mesh.vertices(start);
+        let mut finite = corners.iter().filter(|w| !w.is_infinite());
+        if finite.any(|&w| self.points.coincide(v, w)) {
+            return false;
+        }
+        self.delaunay.find_conflicts(self.points, v, start);
+        self.queue_endangered();
+        if let Some(touched) = &mut self.touched {
+            let (mesh, zone) = (&self.delaunay.mesh, self.delaunay.conflicts());
+            touched.extend(zone.iter().flat_map(|&t| mesh.vertices(t)));
+            touched.insert(v);
+        }
+        self.delaunay.replace_conflicts(v);
+        self.incidence
+            .update(&self.delaunay.mesh, self.delaunay.created());
+        true
     }
 
     /// Every subsegment among the edges of the conflict zone may be about to vanish.

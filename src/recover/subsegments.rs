@@ -5,6 +5,8 @@ use crate::plc::Complex;
 use crate::predicate::{Parameter, PointStore};
 use rustc_hash::FxHashMap;
 
+const ON_SEGMENT: &str = "this Steiner point is on a segment";
+
 /// The segments of a complex and how they are divided into subsegments.
 #[derive(Clone, Debug, Default)]
 pub struct Subsegments {
@@ -12,8 +14,9 @@ pub struct Subsegments {
     of: FxHashMap<[VertexId; 2], u32>,
     /// For each segment its vertices with their parameters; from end to end once recovery is finished.
     chains: Vec<Vec<(Parameter, VertexId)>>,
-    /// For each Steiner point, the segment it lies on and its parameter there; indexed from `first_steiner`.
-    steiner: Vec<(u32, Parameter)>,
+    /// For each Steiner point, the segment it lies on and its parameter there, or `None` if it lies on a polygon; indexed
+    /// from `first_steiner`.
+    steiner: Vec<Option<(u32, Parameter)>>,
     first_steiner: usize,
     ends: Vec<[VertexId; 2]>,
 }
@@ -42,16 +45,29 @@ impl Subsegments {
         self.of.get(&key(a, b)).copied()
     }
 
-    /// The segment that a Steiner point lies on; `None` for vertices of the input.
+    /// The segment that a Steiner point lies on; `None` for vertices of the input and for Steiner points on polygons.
     pub fn segment_of_steiner(&self, v: VertexId) -> Option<u32> {
         let i = v.index().checked_sub(self.first_steiner)?;
-        self.steiner.get(i).map(|&(s, _)| s)
+        let place = self.steiner.get(i).copied().flatten();
+        place.map(|(s, _)| s)
     }
 
-    /// The ends of the segment that a Steiner point lies on and its parameter there; `None` for vertices of the input.
+    /// Whether a and b are vertices of one segment of the input.
+    pub fn share_segment(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> bool {
+        let is_on = |s: u32, v: VertexId| {
+            self.ends[s as usize].contains(&v) || self.segment_of_steiner(v) == Some(s)
+        };
+        let place = |v: VertexId| self.segment_of_steiner(v);
+        match place(a).or(place(b)) {
+            Some(s) => is_on(s, a) && is_on(s, b),
+            None => index.find(a, b).is_some(),
+        }
+    }
+
+    /// The ends of the segment that a Steiner point lies on and its parameter there; `None` for other vertices.
     pub fn place_of_steiner(&self, v: VertexId) -> Option<([VertexId; 2], Parameter)> {
         let i = v.index().checked_sub(self.first_steiner)?;
-        let &(s, t) = self.steiner.get(i)?;
+        let (s, t) = self.steiner.get(i).copied().flatten()?;
         Some((self.ends[s as usize], t))
     }
 
@@ -60,9 +76,12 @@ impl Subsegments {
         self.chains[s as usize].iter().map(|&(_, v)| v)
     }
 
-    /// The vertices of the segment ab of the input, from a to b.
+    /// The vertices of the segment ab of the input, from a to b; a and b alone if they are not the ends of one: then ab is
+    /// an edge of a polygon that has been cut.
     pub fn chain_between(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> Vec<VertexId> {
-        let s = index.find(a, b).expect("every polygon edge is a segment");
+        let Some(s) = index.find(a, b) else {
+            return vec![a, b];
+        };
         let chain = self.chain(s);
         if self.ends[s as usize][0] == a {
             chain.collect()
@@ -78,9 +97,11 @@ impl Subsegments {
 
     /// How many Steiner points lie exactly on their segment.
     pub fn count_exact<P: PointStore>(&self, points: &P) -> usize {
-        let on_segment = |&(i, &(s, _)): &(usize, &(u32, Parameter))| {
-            let [p, q] = self.ends(s);
-            points.collinear([p, q, VertexId::new(self.first_steiner + i)])
+        let on_segment = |&(i, place): &(usize, &Option<(u32, Parameter)>)| {
+            place.is_some_and(|(s, _)| {
+                let [p, q] = self.ends(s);
+                points.collinear([p, q, VertexId::new(self.first_steiner + i)])
+            })
         };
         self.steiner.iter().enumerate().filter(on_segment).count()
     }
@@ -88,7 +109,7 @@ impl Subsegments {
     /// The parameter of a vertex of segment s.
     pub(super) fn parameter(&self, s: u32, v: VertexId) -> Parameter {
         match v.index().checked_sub(self.first_steiner) {
-            Some(i) => self.steiner[i].1,
+            Some(i) => self.steiner[i].expect(ON_SEGMENT).1,
             None if v == self.ends[s as usize][0] => 0.0.into(),
             None => 1.0.into(),
         }
@@ -106,9 +127,14 @@ impl Subsegments {
         self.of.insert(key(a, v), s);
         self.of.insert(key(v, b), s);
         debug_assert_eq!(v.index(), self.first_steiner + self.steiner.len());
-        self.steiner.push((s, t));
+        self.steiner.push(Some((s, t)));
         self.chains[s as usize].push((t, v));
         [[a, v], [v, b]]
+    }
+
+    /// Notes that the next Steiner point lies on a polygon.
+    pub(super) fn push_on_polygon(&mut self) {
+        self.steiner.push(None);
     }
 
     /// The ends of segment s.
@@ -134,7 +160,7 @@ impl Subsegments {
     /// The vertices before and after the Steiner point v on its segment; once the chains are in order.
     pub(super) fn around(&self, v: VertexId) -> [VertexId; 2] {
         let i = self.position(v);
-        let (s, _) = self.steiner[v.index() - self.first_steiner];
+        let (s, _) = self.steiner[v.index() - self.first_steiner].expect(ON_SEGMENT);
         let chain = &self.chains[s as usize];
         [chain[i - 1].1, chain[i + 1].1]
     }
@@ -143,23 +169,24 @@ impl Subsegments {
     pub(super) fn join_at(&mut self, v: VertexId) {
         let [a, b] = self.around(v);
         let i = self.position(v);
-        let (s, _) = self.steiner[v.index() - self.first_steiner];
+        let (s, _) = self.steiner[v.index() - self.first_steiner].expect(ON_SEGMENT);
         self.chains[s as usize].remove(i);
         self.of.remove(&key(a, v));
         self.of.remove(&key(v, b));
         self.of.insert(key(a, b), s);
     }
 
-    /// Adds the Steiner points to a store that has the other vertices only.
+    /// Adds the Steiner points, all of which are on segments, to a store that has the other vertices only.
     pub(super) fn place<P: PointStore>(&self, points: &mut P) {
-        for &(s, t) in &self.steiner {
+        for place in &self.steiner {
+            let (s, t) = place.expect(ON_SEGMENT);
             let [p, q] = self.ends(s);
             points.push_on_segment(p, q, t);
         }
     }
 
     fn position(&self, v: VertexId) -> usize {
-        let (s, t) = self.steiner[v.index() - self.first_steiner];
+        let (s, t) = self.steiner[v.index() - self.first_steiner].expect(ON_SEGMENT);
         let chain = &self.chains[s as usize];
         let found = chain.binary_search_by(|x| Parameter::order(&x.0, &t));
         found.expect("a Steiner point is on its segment")

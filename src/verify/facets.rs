@@ -2,7 +2,7 @@
 //!
 //! Facets that share merged edges ([`super::segments`]) form a group. The *candidates* are the mesh faces whose centroid
 //! is inside the projected area of the group and whose vertices are vertices of it: its input vertices, vertices of the
-//! chains that replace its edges, any vertex exactly on its plane, and Steiner points within the tolerance of the plane
+//! chains that replace its edges, and inside the area any vertex exactly on its plane, and Steiner points within the tolerance of the plane
 //! (for facets that are not flat, within the distance of their own vertices from it). They are found by a flood over mesh
 //! faces that starts at the edges of the group.
 //!
@@ -14,7 +14,8 @@
 //! face of S is turned over: S is projected one to one onto the group. In a flat facet without rounded points all
 //! candidates together are the only choice. Nearly flat vertices permit thin tetrahedra between candidates ("shims": all four
 //! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh, all candidates, a part
-//! of them that is searched for ([`super::cover`]).
+//! of them that is searched for ([`super::cover`]). The first that leaves no candidate that is not locally Delaunay is taken,
+//! else the first that covers the group.
 //!
 //! A part of a facet (a cell of [`Area`]) is outside the domain, and exempt, if no candidate lies in it and a step from
 //! one of its convex corners into it enters no tetrahedron. The facets of a PLC intersect in common segments only, so that
@@ -129,6 +130,8 @@ struct Group<'a> {
     /// The edges that were merged away.
     merged: FxHashSet<[VertexId; 2]>,
     vertices: FxHashSet<VertexId>,
+    /// The chains in place of edges that a vertex is on, and where in them.
+    on_chains: FxHashMap<VertexId, Vec<(usize, usize)>>,
 }
 
 /// How a set of faces fails to cover a group.
@@ -159,7 +162,20 @@ impl<'a> Group<'a> {
             .iter()
             .flat_map(|&f| case.input.facets[f].vertices.iter().copied());
         let vertices = own.chain(edges.iter().flatten().copied()).collect();
+        let mut on_chains: FxHashMap<VertexId, Vec<(usize, usize)>> = FxHashMap::default();
+        for &f in &facets {
+            for &e in &case.input.facets[f].edges {
+                if let Fate::Chain(chain) = &fates[e]
+                    && chain.len() > 2
+                {
+                    for (i, &v) in chain.iter().enumerate() {
+                        on_chains.entry(v).or_default().push((e, i));
+                    }
+                }
+            }
+        }
         Some(Group {
+            on_chains,
             case,
             facets,
             axes,
@@ -182,22 +198,34 @@ impl<'a> Group<'a> {
             &|| candidates.clone(),
             &|| self.chosen(&candidates),
         ];
-        let mut first_misfit = None;
+        let (mut covering, mut first_misfit) = (None, None);
         for (i, choice) in choices.into_iter().enumerate() {
             let choice = choice();
             match self.misfit(&choice) {
                 None => {
-                    findings.counts.facets += self.facets.len();
-                    findings.counts.facets_rounded += usize::from(self.is_rounded(&choice));
-                    for face in choice {
-                        cover.constrained[face] = true;
+                    let mut others = candidates
+                        .iter()
+                        .filter(|f| choice.binary_search(f).is_err());
+                    let explains = others.all(|&f| is_locally_delaunay(self.case, f));
+                    if explains || covering.is_none() {
+                        covering = Some(choice);
                     }
-                    return;
+                    if explains {
+                        break;
+                    }
                 }
                 // Of the failures, that of all candidates says most.
                 Some(misfit) if i == 1 => first_misfit = Some(misfit),
                 Some(_) => {}
             }
+        }
+        if let Some(choice) = covering {
+            findings.counts.facets += self.facets.len();
+            findings.counts.facets_rounded += usize::from(self.is_rounded(&choice));
+            for face in choice {
+                cover.constrained[face] = true;
+            }
+            return;
         }
         let facets = self.facets.clone();
         findings.report(match first_misfit.expect("all candidates were tried") {
@@ -230,6 +258,13 @@ impl<'a> Group<'a> {
                     continue;
                 }
                 seen.insert(f);
+                let [a, b, c] = key;
+                if [[a, b], [b, c], [a, c]]
+                    .iter()
+                    .any(|&[v, w]| self.bridges(v, w))
+                {
+                    continue;
+                }
                 if self
                     .areas
                     .iter()
@@ -247,6 +282,18 @@ impl<'a> Group<'a> {
         }
         found.sort_unstable();
         found
+    }
+
+    /// Whether vw bridges vertices of a chain. Where those are rounded, it may be an edge of the mesh, but is none of f.
+    fn bridges(&self, v: VertexId, w: VertexId) -> bool {
+        let (Some(of_v), Some(of_w)) = (self.on_chains.get(&v), self.on_chains.get(&w)) else {
+            return false;
+        };
+        let bridged = |&(e, i): &(usize, usize)| {
+            of_w.iter()
+                .any(|&(other, j)| e == other && i.abs_diff(j) > 1)
+        };
+        of_v.iter().any(bridged)
     }
 
     fn accepts(&self, v: VertexId, memory: &mut FxHashMap<VertexId, bool>) -> bool {

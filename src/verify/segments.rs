@@ -50,7 +50,10 @@ pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
         .map(|e| sorted2(e.vertices))
         .collect();
     for (e, edge) in input.edges.iter().enumerate() {
-        let chain = chain(case, edge.ends);
+        // Rounded Steiner points permit several chains: that of listed edges, if there is one, is meant.
+        let is_listed = |e: [VertexId; 2]| listed.contains(&sorted2(e));
+        let chain =
+            chain(case, edge.ends, &is_listed).or_else(|| chain(case, edge.ends, &|_| true));
         let unlisted = case.options.merge_angle.is_some()
             && chain.as_ref().is_some_and(|c| is_unlisted(&listed, c));
         let fate = if let Some(chain) = chain.filter(|_| !unlisted || !is_mergeable(case, e)) {
@@ -99,8 +102,13 @@ pub(super) fn report(case: &Case, e: usize, findings: &mut Findings) {
     });
 }
 
-fn chain(case: &Case, [a, b]: [VertexId; 2]) -> Option<Vec<VertexId>> {
-    if case.tables.has_edge([a, b]) {
+/// A chain of edges that `may_use` permits.
+fn chain(
+    case: &Case,
+    [a, b]: [VertexId; 2],
+    may_use: &dyn Fn([VertexId; 2]) -> bool,
+) -> Option<Vec<VertexId>> {
+    if case.tables.has_edge([a, b]) && may_use([a, b]) {
         return Some(vec![a, b]);
     }
     if !case.tables.is_used(a) || !case.tables.is_used(b) {
@@ -127,7 +135,8 @@ fn chain(case: &Case, [a, b]: [VertexId; 2]) -> Option<Vec<VertexId>> {
             .neighbours(v)
             .iter()
             .copied()
-            .filter(|&w| order(v, w).is_lt() && (w == b || order(w, b).is_lt()))
+            .filter(|&w| may_use([v, w]) && order(v, w).is_lt())
+            .filter(|&w| w == b || order(w, b).is_lt())
             .filter(|w| !tried.contains(w) && (*w == b || is_on(case, [a, b], *w)))
             .min_by(|&w, &x| order(w, x));
         match step {

@@ -1,6 +1,7 @@
 //! What several test files share.
 #![allow(dead_code)]
 
+pub mod almost_flat;
 pub mod families;
 
 use tetflip::delaunay::{Delaunay, delaunay};
