@@ -364,7 +364,7 @@ impl Cdt<DoublePoints> {
     ) -> Result<ExportedMesh, Failure> {
         report.time(Phase::Domain, |report| {
             check_embedding(
-                &self.complex,
+                &self.pieces.complex,
                 &self.subsegments,
                 &self.index,
                 &self.subpolygons,

@@ -83,7 +83,7 @@ pub fn recover_segments<P: PointStore>(
     };
     let harmless = Placement::Harmless {
         most,
-        effort: 1_000_000 + 5_000 * most,
+        effort: 1_000_000 + EFFORT_PER_POINT * most,
     };
     let recovered = match (by_rules, attempt(delaunay, harmless)) {
         (Ok(rules), Ok(harmless)) => {
@@ -153,6 +153,9 @@ pub fn add_steiner_points<P: PointStore>(
         touched: recovery.touched.unwrap_or_default(),
     })
 }
+
+/// How many tetrahedra the search for harmless places may look at, for each Steiner point of the result to be improved.
+const EFFORT_PER_POINT: usize = 1500;
 
 /// No valid segment of ordinary input needs so many vertices. Edges that nearly overlap, an ulp apart all along, would
 /// need one every few ulps.
