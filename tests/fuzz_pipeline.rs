@@ -195,8 +195,16 @@ fn check_exactly(plc: &Plc, keep_hull: bool, merge_coplanar: bool) {
                         )
                         | Failure::Plc(_)
                 );
+                // Edges that nearly overlap may need any number of Steiner points, and vertices nearer to a segment than
+                // 2^-106 of its length a place between parameters.
+                let too_many = matches!(
+                    failure,
+                    Failure::GaveUp(
+                        GaveUp::TooManySteinerPoints { .. } | GaveUp::SegmentTooShort { .. }
+                    )
+                ) && !is_coarse(plc);
                 assert!(
-                    about_points || !findings.is_valid(),
+                    about_points || too_many || !findings.is_valid(),
                     "{failure} of a valid PLC"
                 );
             }

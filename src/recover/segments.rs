@@ -159,7 +159,7 @@ const EFFORT_PER_POINT: usize = 1500;
 
 /// No valid segment of ordinary input needs so many vertices. Edges that nearly overlap, an ulp apart all along, would
 /// need one every few ulps.
-const MOST_VERTICES_PER_SEGMENT: usize = 1 << 16;
+const MOST_VERTICES_PER_SEGMENT: usize = 1 << 14;
 
 /// A tetrahedralization with all segments.
 pub(super) struct Recovered {
