@@ -1,6 +1,6 @@
 //! `tetflip mesh`: the CDT of a PLC.
 
-use super::{Stop, check_outputs, failure_path, read, save, say};
+use super::{Stop, check_outputs, failure_path, read, save, say, warn};
 use clap::ValueEnum;
 use serde::Serialize;
 use std::io::ErrorKind;
@@ -186,8 +186,8 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
             report.insertion_counts.flips.flips(),
             if arguments.verify { "; verified" } else { "" },
         ));
-        notes.iter().for_each(|note| say(note));
     }
+    notes.iter().for_each(|note| warn(note));
     Ok(())
 }
 

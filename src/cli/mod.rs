@@ -113,3 +113,8 @@ fn reads_node_file(input: &Path) -> bool {
 pub(crate) fn say(line: &str) {
     let _ = writeln!(std::io::stdout(), "{line}");
 }
+
+/// Prints a line on stderr: what the user should know even of a quiet run that succeeds.
+pub(crate) fn warn(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}

@@ -80,3 +80,6 @@ pub fn stl() -> String {
     }
     text + "endsolid cube\n"
 }
+
+/// A square: no tetrahedra.
+pub const FLAT: &str = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";

@@ -8,7 +8,7 @@ mod input;
 mod place;
 mod refusals;
 
-use input::{CUBE, ROOMS, off, poly, stl};
+use input::{CUBE, FLAT, ROOMS, off, poly, stl};
 use place::Place;
 
 #[test]
@@ -142,7 +142,7 @@ fn without_output_nothing_is_written() {
 
 #[test]
 fn quiet_is_silent() {
-    let place = Place::with(&[("a.poly", &poly(&[CUBE], &[])), ("open.off", &off(5))]);
+    let place = Place::with(&[("a.poly", &poly(&[CUBE], &[])), ("flat.off", FLAT)]);
     for arguments in [
         "mesh a.poly -o x.node --verify --quiet",
         "mesh a.poly -q",
@@ -157,7 +157,7 @@ fn quiet_is_silent() {
         );
     }
     // What goes wrong is said all the same.
-    place.refuses("mesh open.off --quiet", 1, &["--hull"]);
+    place.refuses("mesh flat.off --quiet", 2, &["one plane"]);
 }
 
 #[test]
