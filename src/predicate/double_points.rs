@@ -2,8 +2,8 @@
 //!
 //! A Steiner point whose exact coordinates are no doubles ([`Steiner::Exact`]) has NaN in their place, so that the first
 //! stage below, which nearly all calls end in, says "don't know" without being asked: models without such points pay
-//! nothing for them. Their predicates go through stage 1 with the rounding of the coordinates in the error bound, and end
-//! in stage 3; all zeros do.
+//! nothing for them. Their predicates go through stage 1 with coordinates that are sums of two doubles, relative to one of the
+//! points, and the rounding of these sums in the error bound, and end in stage 3; all zeros do.
 //!
 //! Each sign goes through stages until one is sure:
 //!
@@ -159,11 +159,17 @@ impl DoublePoints {
         !self.segment_points.is_empty() && v.iter().any(|&v| !self.is_double(v))
     }
 
-    /// The coordinates with the bound of their rounding.
-    fn approx(&self, v: VertexId) -> Vec3<Approx> {
+    /// The coordinates relative to a double point, with the bound of their rounding: (x − o) + rest, so that the bound is
+    /// relative to the distance from there, not to the coordinates.
+    fn approx(&self, v: VertexId, origin: [f64; 3]) -> Vec3<Approx> {
+        let origin = Vec3::from_f64(origin);
         match self.segment_point(v) {
-            Some(p) => p.approx.clone(),
-            None => self.at(v),
+            Some(p) => {
+                let [x, y, z] = Vec3::<Approx>::from_f64(p.rounded).sub(&origin).0;
+                let [rx, ry, rz] = &p.rest.0;
+                Vec3([x + rx, y + ry, z + rz])
+            }
+            None => self.at(v).sub(&origin),
         }
     }
 
@@ -186,7 +192,8 @@ impl DoublePoints {
     /// Stages 1 and 3 where not all coordinates are doubles.
     #[cold]
     fn orient3d_of_any(&self, v: [VertexId; 4]) -> Sign {
-        let p = v.map(|v| self.approx(v));
+        let origin = self.rounded(v[0]);
+        let p = v.map(|v| self.approx(v, origin));
         let filtered = formula::orient3d(p.each_ref()).sign();
         filtered
             .unwrap_or_else(|| formula::orient3d(v.map(|v| self.exact(v)).each_ref()).exact_sign())
@@ -195,7 +202,8 @@ impl DoublePoints {
     /// Stages 1 and 3 where not all coordinates are doubles.
     #[cold]
     fn insphere_of_any(&self, v: [VertexId; 5]) -> Sign {
-        let p = v.map(|v| self.approx(v));
+        let origin = self.rounded(v[4]);
+        let p = v.map(|v| self.approx(v, origin));
         let filtered = formula::insphere(p.each_ref()).sign();
         filtered
             .unwrap_or_else(|| formula::insphere(v.map(|v| self.exact(v)).each_ref()).exact_sign())

@@ -93,8 +93,8 @@ pub(super) struct SegmentPoint {
     pub exact: Vec3<Dyadic>,
     /// The doubles nearest to them.
     pub rounded: [f64; 3],
-    /// The same with the bound of that rounding.
-    pub approx: Vec3<Approx>,
+    /// What is missing from them, up to its own rounding.
+    pub rest: Vec3<Approx>,
 }
 
 impl SegmentPoint {
@@ -107,16 +107,16 @@ impl SegmentPoint {
         if (0..3).all(is_double) {
             return Err(rounded);
         }
-        let approx = [0, 1, 2].map(|i| match is_double(i) {
-            true => Approx::from_f64(rounded[i]),
-            false => near(rounded[i]),
+        let rest = [0, 1, 2].map(|i| match is_double(i) {
+            true => Approx::from_f64(0.0),
+            false => near((exact.0[i].clone() - &Dyadic::from_f64(rounded[i])).to_f64()),
         });
         Ok(SegmentPoint {
             ends,
             t,
             exact,
             rounded,
-            approx: Vec3(approx),
+            rest: Vec3(rest),
         })
     }
 }
