@@ -32,7 +32,7 @@
 //! **Zero.** [`Approx::sign`] never certifies zero. If x is known to be an integer multiple of some quantum q (all
 //! coordinates on a grid), |v| + bound < q does: [`Approx::sign_on_grid`].
 
-use super::{Number, Sign};
+use super::{Dyadic, Exact, Number, Sign};
 use std::ops::{Add, Mul, Sub};
 
 /// The smallest normal double, T in the proof.
@@ -53,6 +53,19 @@ impl Approx {
     #[inline(always)]
     pub fn error(&self) -> f64 {
         f64::from(self.index) * ROUNDING * self.magnitude * (1.0 + 8.0 * ROUNDING) + TINY
+    }
+
+    /// x rounded to a double. [`Dyadic::to_f64`] rounds the leading 64 bits to nearest, and so errs by at most
+    /// (2⁻⁵³ + 2⁻⁶³)(1 + 2⁻⁵²)|x| < u′|v| unless the result is subnormal (or overflows): index 1 with the magnitude |v| where
+    /// this is far from that, and a magnitude that says nothing elsewhere.
+    pub(crate) fn rounded(x: &Dyadic) -> Approx {
+        let value = x.to_f64();
+        if x.exact_sign().is_zero() {
+            return Approx::from_f64(0.0);
+        }
+        let normal = value.abs() > 2f64.powi(-1000);
+        let magnitude = if normal { value.abs() } else { f64::INFINITY };
+        Approx::with_bound(value, magnitude, 1)
     }
 
     /// A value with the magnitude and the index of an earlier computation.

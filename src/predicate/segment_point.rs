@@ -107,28 +107,13 @@ impl SegmentPoint {
         if (0..3).all(is_double) {
             return Err(rounded);
         }
-        let rest = [0, 1, 2].map(|i| match is_double(i) {
-            true => Approx::from_f64(0.0),
-            false => near((exact.0[i].clone() - &Dyadic::from_f64(rounded[i])).to_f64()),
-        });
+        let rest = exact.sub(&Vec3::from_f64(rounded)).0;
         Ok(SegmentPoint {
             ends,
             t,
             exact,
             rounded,
-            rest: Vec3(rest),
+            rest: Vec3(rest.each_ref().map(Approx::rounded)),
         })
     }
-}
-
-/// A number that was rounded to x. [`Dyadic::to_f64`] rounds the leading 64 bits to nearest, and so errs by at most
-/// (2⁻⁵³ + 2⁻⁶³)(1 + 2⁻⁵²)|x| < 2⁻⁵²|x| unless the result is subnormal (or overflows): index 1 with the magnitude |x|, where
-/// this is far from that.
-fn near(x: f64) -> Approx {
-    let magnitude = if x.abs() > 2f64.powi(-1000) {
-        x.abs()
-    } else {
-        f64::INFINITY
-    };
-    Approx::with_bound(x, magnitude, 1)
 }

@@ -2,7 +2,7 @@
 //!
 //! Whoever made the mesh. Constraints are recognised by geometry, and nothing that the mesh says of itself is believed.
 //! Each file below checks one claim; every sign that decides is exact. No code is shared with the predicates' filters,
-//! the recovery or the mesh data structure: only exact numbers and the formulas of the determinants.
+//! the recovery or the mesh data structure: only numbers that know their sign, and the formulas of the determinants.
 //!
 //! | file | claim |
 //! |---|---|

@@ -19,7 +19,7 @@
 //! So |determinant| > 2n·u·P + 2⁻⁵⁰⁰ proves the sign. Everything else, zero in particular, is decided in [`Dyadic`]s.
 
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
+use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::formula;
 use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
@@ -99,6 +99,12 @@ impl Points {
         self.at(v)
     }
 
+    /// The points, if one of them is exactly elsewhere.
+    fn any_exact<const N: usize>(&self, v: &[VertexId; N]) -> Option<[VertexId; N]> {
+        let any = !self.exact.is_empty() && v.iter().any(|v| self.exact.contains_key(v));
+        any.then_some(*v)
+    }
+
     pub(super) fn exact(&self, v: VertexId) -> Vec3<Dyadic> {
         let exact = self.exact.get(&v).cloned();
         exact.unwrap_or_else(|| Vec3::from_f64(self.at(v)))
@@ -133,7 +139,28 @@ impl Points {
         let o = self.double(a);
         let (value, permanent) = det3([b, c, d].map(|v| minus(self.double(v), o)));
         self.certain(value, permanent, 8)
+            .or_else(|| {
+                let p = self
+                    .any_exact(&[a, b, c, d])?
+                    .map(|v| self.near(v, self.at(a)));
+                formula::orient3d(p.each_ref()).sign()
+            })
             .unwrap_or_else(|| self.volume([a, b, c, d]).exact_sign())
+    }
+
+    /// The coordinates relative to a double point, with a bound of their rounding ([`Approx`]): those of a point that is exactly
+    /// elsewhere are (x − o) + (p − x), where x is p rounded.
+    fn near(&self, v: VertexId, origin: [f64; 3]) -> Vec3<Approx> {
+        let from_origin = Vec3::<Approx>::from_f64(self.at(v)).sub(&Vec3::from_f64(origin));
+        match self.exact.get(&v) {
+            None => from_origin,
+            Some(p) => {
+                let rest = p.sub(&Vec3::from_f64(self.at(v))).0;
+                let [x, y, z] = from_origin.0;
+                let [rx, ry, rz] = rest.map(|r| Approx::rounded(&r));
+                Vec3([x + &rx, y + &ry, z + &rz])
+            }
+        }
     }
 
     /// The same with the rounded coordinates, if any of the points has others.
@@ -156,10 +183,15 @@ impl Points {
         let value = (lift[0] * minors[0].0 + lift[2] * minors[2].0)
             - (lift[1] * minors[1].0 + lift[3] * minors[3].0);
         let permanent = (0..4).map(|i| lift[i] * minors[i].1).sum();
-        self.certain(value, permanent, 17).unwrap_or_else(|| {
-            let p = five.map(|v| self.exact(v));
-            formula::insphere(p.each_ref()).exact_sign()
-        })
+        self.certain(value, permanent, 17)
+            .or_else(|| {
+                let p = self.any_exact(&five)?.map(|v| self.near(v, self.at(e)));
+                formula::insphere(p.each_ref()).sign()
+            })
+            .unwrap_or_else(|| {
+                let p = five.map(|v| self.exact(v));
+                formula::insphere(p.each_ref()).exact_sign()
+            })
     }
 
     /// The sign of the average of orient(a, b, c, q) over the points q: the side of the plane abc on which their
@@ -342,6 +374,35 @@ mod tests {
             prop_assert_eq!(points.orient([a, b, c, d]), points.volume([a, b, c, d]).exact_sign());
             prop_assert_eq!(points.insphere(v), formula::insphere(e.each_ref()).exact_sign());
             prop_assert_eq!(points.orient2d([1, 2], [a, b, c]), points.area([1, 2], [a, b, c]).exact_sign());
+        }
+    }
+
+    proptest! {
+        /// The same where points are exactly between others, and have rounded coordinates.
+        #[test]
+        fn shortcut_knows_of_exact_positions(
+            p in prop::collection::vec([coordinate(), coordinate(), coordinate()], 10),
+            t in prop::collection::vec(1u32..16, 5),
+        ) {
+            let mut exact = FxHashMap::default();
+            let mut coordinates = p.clone();
+            for (i, t) in t.iter().enumerate() {
+                let t = Dyadic::from_f64(f64::from(*t) / 16.0);
+                let (a, b) = (Vec3::<Dyadic>::from_f64(p[i]), Vec3::from_f64(p[i + 5]));
+                let along = b.sub(&a);
+                let at = Vec3([0, 1, 2].map(|k| along.0[k].clone() * &t + &a.0[k]));
+                exact.insert(VertexId::new(coordinates.len()), at.clone());
+                coordinates.push(at.0.map(|x| x.to_f64()));
+            }
+            let points = Points::new(coordinates).with_exact(exact);
+            for start in 5..11 {
+                let v = [0, 1, 2, 3, 4].map(|i| VertexId::new(start + i));
+                let e = v.map(|i| points.exact(i));
+                let [a, b, c, d, _] = v;
+                prop_assert_eq!(points.orient([a, b, c, d]), points.volume([a, b, c, d]).exact_sign());
+                prop_assert_eq!(points.insphere(v), formula::insphere(e.each_ref()).exact_sign());
+                prop_assert_eq!(points.orient2d([1, 2], [a, b, c]), points.area([1, 2], [a, b, c]).exact_sign());
+            }
         }
     }
 
