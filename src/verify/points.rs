@@ -206,6 +206,17 @@ impl Points {
             (value + x, permanent + p)
         });
         self.certain(value, permanent, 8 + q.len() as u32)
+            .or_else(|| {
+                if self.exact.is_empty() {
+                    return None;
+                }
+                let near = |v: VertexId| self.near(v, self.at(a));
+                let p = [a, b, c].map(near);
+                let sum = |sum: Approx, &v: &VertexId| {
+                    sum + &formula::orient3d([&p[0], &p[1], &p[2], &near(v)])
+                };
+                q.iter().fold(Approx::from_f64(0.0), sum).sign()
+            })
             .unwrap_or_else(|| total(q, |v| self.volume([a, b, c, v])))
     }
 
