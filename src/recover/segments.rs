@@ -16,7 +16,7 @@
 //! # Thrift
 //! Which points are inserted is a choice. Two ways are tried from the start, and the one that needs fewer points is kept:
 //! the place that the rules of [`super::split`] say, and a place nearby that destroys no other subsegment
-//! ([`super::harmless`]), where there is one. In the end, points that turn out unnecessary are removed ([`super::prune`]).
+//! (`harmless.rs`), where there is one. In the end, points that turn out unnecessary are removed (`prune.rs`).
 
 use super::scout::{Scouted, crossed_by, scout};
 use super::split::{self, Reference, Subsegment, split_parameter};

@@ -1,8 +1,8 @@
 //! Polygons that are flat only to rounding (paper, end of §3.1 and of §3.2), dealt with before any polygon is inserted.
 //!
 //! Polygons of four or more vertices in floating point, and polygons with rounded Steiner points on their boundaries, are
-//! not exactly flat. Each is cut into exactly flat pieces along edges that the Delaunay tetrahedralization has ([`cut`]).
-//! Where edges are missing the polygon gets a Steiner point ([`steiner`]), and is cut again, until all pieces of all
+//! not exactly flat. Each is cut into exactly flat pieces along edges that the Delaunay tetrahedralization has (`cut.rs`).
+//! Where edges are missing the polygon gets a Steiner point (`steiner.rs`), and is cut again, until all pieces of all
 //! polygons are flat. As this happens in the Delaunay tetrahedralization, no mesh of a polygon is ever taken back.
 //!
 //! Then every insertion is one of an exactly flat polygon into an edge-protected PLC, and what is proved of those holds:
