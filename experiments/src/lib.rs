@@ -1,13 +1,22 @@
-//! What the experiments have in common: scenes, methods and their outcomes, results as CSV rows, plots.
+//! The experiments: what each asks is in its module, what they have in common beside them ([`experiment`] is the frame).
 
+pub mod exactness_cost;
 pub mod expectation;
+pub mod experiment;
 pub mod family;
+pub mod fig9;
+pub mod flip_order;
+pub mod growth;
+pub mod ledger;
 pub mod method;
 pub mod order;
 pub mod outcome;
 pub mod plot;
 pub mod record;
+pub mod rivals;
 pub mod sample;
+pub mod scaling;
 pub mod scene;
 pub mod schoenhardt;
+pub mod steiner;
 pub mod turns;

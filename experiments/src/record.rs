@@ -58,6 +58,11 @@ impl Results {
         Ok(results)
     }
 
+    /// The directory.
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
     /// Writes `STEM.csv` with the names of the fields as its header, and returns its path.
     ///
     /// # Errors
@@ -125,7 +130,8 @@ pub struct Machine {
     pub os: String,
     /// The compiler that compiled this program.
     pub rustc: String,
-    /// The commit of the source directory at the time of the run, with `-dirty` if tracked files differ from it.
+    /// The commit of the source directory at the time of the run, with `-dirty` if tracked files
+    /// other than results differ from it.
     pub commit: String,
     /// The version of tetflip.
     pub tetflip: String,
@@ -172,22 +178,27 @@ fn value_of(text: &str, key: &str, separator: char) -> Option<String> {
     (!value.is_empty()).then(|| value.to_string())
 }
 
+/// Results are not sources: they change while experiments run.
 fn commit_of(directory: &Path) -> Option<String> {
-    let describe = [
-        "describe",
-        "--always",
-        "--dirty",
-        "--abbrev=40",
-        "--exclude=*",
-    ];
-    let output = Command::new("git")
-        .arg("-C")
-        .arg(directory)
-        .args(describe)
-        .output()
-        .ok()?;
-    let commit = String::from_utf8(output.stdout).ok()?.trim().to_string();
-    (output.status.success() && !commit.is_empty()).then_some(commit)
+    let git = |arguments: &[&str]| {
+        Command::new("git")
+            .arg("-C")
+            .arg(directory)
+            .args(arguments)
+            .output()
+            .ok()
+    };
+    let head = git(&["rev-parse", "HEAD"])?;
+    let commit = String::from_utf8(head.stdout).ok()?.trim().to_string();
+    if !head.status.success() || commit.is_empty() {
+        return None;
+    }
+    let sources = [":/", ":(top,exclude)results", ":(top,exclude)paper"];
+    let same = git(&[&["diff", "--quiet", "HEAD", "--"], &sources[..]].concat())?;
+    Some(match same.status.code() {
+        Some(0) => commit,
+        _ => commit + "-dirty",
+    })
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
-//! What the rows must say. Of times nothing is asserted: the targets are reported as reached or missed ([`crate::summary`]).
+//! What the rows must say. Of times nothing is asserted: the targets are reported as reached or missed ([`crate::exactness_cost::summary`]).
 
-use crate::plan::methods;
-use crate::row::Row;
-use tetflip_experiments::expectation::{Check, Expectation, check_rows};
+use crate::exactness_cost::plan::methods;
+use crate::exactness_cost::row::Row;
+use crate::expectation::{Check, Expectation, check_rows};
 
 /// All expectations.
 pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
@@ -36,7 +36,7 @@ pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::{Input, Kind};
+    use crate::exactness_cost::input::{Input, Kind};
 
     fn good(method: usize) -> Row {
         let input = Input {

@@ -14,10 +14,10 @@
 //!   rectangle with rounded corners in the tilted plane would not be flat.)
 //! - `sphere`: integer points p with |p|² = 250 001, and a rectangle through the centre: every insphere determinant is 0.
 
+use crate::family::Draw;
+use crate::scene::Slab;
 use tetflip::mesh::VertexId;
 use tetflip::plc::{Facet, Plc};
-use tetflip_experiments::family::Draw;
-use tetflip_experiments::scene::Slab;
 
 /// One input.
 #[derive(Clone, Copy, Debug, PartialEq)]

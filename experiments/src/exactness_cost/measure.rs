@@ -1,14 +1,14 @@
 //! One input: every method on a copy of the same tetrahedralization, timed in turns and verified.
 
-use crate::input::Input;
-use crate::plan;
-use crate::row::{Row, decided};
+use crate::exactness_cost::input::Input;
+use crate::exactness_cost::plan;
+use crate::exactness_cost::row::{Row, decided};
+use crate::method::Method;
+use crate::outcome;
+use crate::sample::{median, minimum};
+use crate::turns::{Effort, Runs, Scene};
 use tetflip::cdt::Cdt;
 use tetflip::report::Report;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::outcome;
-use tetflip_experiments::sample::{median, minimum};
-use tetflip_experiments::turns::{Effort, Runs, Scene};
 
 /// One row per method.
 pub fn measure(input: &Input, methods: &[Method], effort: &Effort) -> Vec<Row> {
@@ -61,10 +61,10 @@ pub fn measure(input: &Input, methods: &[Method], effort: &Effort) -> Vec<Row> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expect::expectations;
-    use crate::input::{Cut, Kind};
-    use crate::plan::methods;
-    use tetflip_experiments::expectation::Expectation;
+    use crate::exactness_cost::expect::expectations;
+    use crate::exactness_cost::input::{Cut, Kind};
+    use crate::exactness_cost::plan::methods;
+    use crate::expectation::Expectation;
 
     #[test]
     fn ties_are_the_perturbations_and_random_times_are_floats() {

@@ -1,10 +1,10 @@
 //! Which inputs, by which methods.
 
-use crate::input::{Input, KINDS, Kind};
+use crate::exactness_cost::input::{Input, KINDS, Kind};
+use crate::method::Method;
+use crate::turns::Effort;
 use tetflip::number::Bits;
 use tetflip::recover::polygons::{Insertion, Times};
-use tetflip_experiments::method::Method;
-use tetflip_experiments::turns::Effort;
 
 /// What to run.
 #[derive(Clone, Debug)]

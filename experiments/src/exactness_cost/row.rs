@@ -1,12 +1,12 @@
 //! One line of `exactness_cost.csv`: one method on one input.
 
-use crate::input::Input;
+use crate::exactness_cost::input::Input;
+use crate::method::Method;
+use crate::outcome;
+use crate::sample::rounded;
 use serde::Serialize;
 use tetflip::recover::flips::FlipCounts;
 use tetflip::recover::polygons::{Insertion, Times};
-use tetflip_experiments::method::Method;
-use tetflip_experiments::outcome;
-use tetflip_experiments::sample::rounded;
 
 /// The columns; the README of the package has their meaning.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

@@ -1,10 +1,10 @@
 //! `exactness_cost-summary.csv`: times relative to `f64` and to cavities by input and size; and the project's targets.
 
-use crate::input::{KINDS, Kind};
-use crate::row::Row;
+use crate::exactness_cost::input::{KINDS, Kind};
+use crate::exactness_cost::row::Row;
+use crate::method::Method;
+use crate::sample::{median, rounded};
 use serde::Serialize;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::sample::{median, rounded};
 
 /// One method on the inputs of one kind and size. Ratios are medians, over the seeds, of ratios of median times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -194,8 +194,8 @@ pub fn targets_text(targets: &[Target]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::{Cut, Input};
-    use crate::plan::methods;
+    use crate::exactness_cost::input::{Cut, Input};
+    use crate::exactness_cost::plan::methods;
 
     /// Rows of one input, with the seconds of f64, filtered and cavity.
     fn rows(kind: Kind, about: u64, seed: u64, seconds: [f64; 3]) -> Vec<Row> {

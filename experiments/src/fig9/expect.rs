@@ -1,8 +1,8 @@
 //! What the rows must say. Of times nothing is asserted: they are the machine's.
 
-use crate::row::Row;
-use tetflip_experiments::expectation::{Check, Expectation, check_rows};
-use tetflip_experiments::method::Method;
+use crate::expectation::{Check, Expectation, check_rows};
+use crate::fig9::row::Row;
+use crate::method::Method;
 
 /// All expectations.
 pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
@@ -41,7 +41,7 @@ pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tetflip_experiments::scene::Slab;
+    use crate::scene::Slab;
 
     const SLAB: Slab = Slab {
         vertices: 10,

@@ -1,13 +1,13 @@
 //! One scene: every method on a copy of the same tetrahedralization, timed in turns and verified.
 
-use crate::row::Row;
+use crate::fig9::row::Row;
+use crate::method::Method;
+use crate::outcome;
+use crate::sample::{median, minimum};
+use crate::scene::Slab;
+use crate::turns::{Effort, Scene};
 use tetflip::cdt::Cdt;
 use tetflip::report::Report;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::outcome;
-use tetflip_experiments::sample::{median, minimum};
-use tetflip_experiments::scene::Slab;
-use tetflip_experiments::turns::{Effort, Scene};
 
 /// One row per method.
 pub fn scene(slab: Slab, methods: &[Method], effort: &Effort) -> Vec<Row> {

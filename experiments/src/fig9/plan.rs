@@ -1,7 +1,7 @@
 //! Which scenes, and how much time for each.
 
-use tetflip_experiments::scene::Slab;
-use tetflip_experiments::turns::Effort;
+use crate::scene::Slab;
+use crate::turns::Effort;
 
 /// What to run.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! The plots: the paper's two and the full range. Only successful runs are points.
 
-use crate::row::Row;
+use crate::fig9::row::Row;
+use crate::method::Method;
+use crate::plot::{Plot, PlotError, Scale, Series};
 use std::ops::RangeInclusive;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::plot::{Plot, PlotError, Scale, Series};
 
 /// One plot of the experiment.
 pub struct Figure {
@@ -81,7 +81,7 @@ impl Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tetflip_experiments::scene::Slab;
+    use crate::scene::Slab;
 
     fn row(crossing_tets: u64, outcome: &'static str) -> Row {
         let slab = Slab {

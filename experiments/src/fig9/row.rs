@@ -1,10 +1,10 @@
 //! One line of `fig9.csv`: one method in one scene.
 
+use crate::method::Method;
+use crate::outcome;
+use crate::scene::Slab;
 use serde::Serialize;
 use tetflip::recover::polygons::PolygonCounts;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::outcome;
-use tetflip_experiments::scene::Slab;
 
 /// The columns; the README of the package has their meaning.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

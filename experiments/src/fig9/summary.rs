@@ -1,9 +1,9 @@
 //! `fig9-summary.csv`: times and their ratios by size class.
 
-use crate::row::Row;
+use crate::fig9::row::Row;
+use crate::method::Method;
+use crate::sample::{median, rounded};
 use serde::Serialize;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::sample::{median, rounded};
 
 /// Lower bounds of the size classes, in crossing tetrahedra. The last class has no upper bound.
 const CLASSES: [u64; 9] = [0, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000];
@@ -127,7 +127,7 @@ fn number(x: Option<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tetflip_experiments::scene::Slab;
+    use crate::scene::Slab;
 
     /// A scene with the given times of the methods; a missing time is a failed run.
     fn rows(seed: u64, crossing_tets: u64, seconds: [Option<f64>; 4]) -> Vec<Row> {

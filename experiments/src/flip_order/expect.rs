@@ -1,12 +1,12 @@
 //! What all inputs must show.
 
-use crate::measure::{DIFFERENT, Measured, is_broken};
-use crate::plan::name_of;
-use tetflip_experiments::expectation::Expectation;
+use crate::expectation::Expectation;
+use crate::flip_order::measure::{DIFFERENT, Measured, is_broken};
+use crate::flip_order::plan::name_of;
 
 /// All expectations.
 pub fn expectations(inputs: &[Measured]) -> Vec<Expectation> {
-    let of_runs = |statement, is_broken: &dyn Fn(&crate::measure::Run) -> bool| {
+    let of_runs = |statement, is_broken: &dyn Fn(&crate::flip_order::measure::Run) -> bool| {
         let runs = inputs
             .iter()
             .flat_map(|m| m.runs.iter().map(move |r| (m, r)));
@@ -54,8 +54,8 @@ pub fn expectations(inputs: &[Measured]) -> Vec<Expectation> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::measure;
-    use crate::plan::{Plan, is_exact};
+    use crate::flip_order::measure::measure;
+    use crate::flip_order::plan::{Plan, is_exact};
 
     fn broken(input: Measured) -> Vec<usize> {
         let all = expectations(&[input]).into_iter().enumerate();

@@ -1,6 +1,10 @@
 //! One input, with every number type.
 
-use crate::plan::{Plan, is_exact};
+use crate::family::{Member, Prepared};
+use crate::flip_order::plan::{Plan, is_exact};
+use crate::order::{Disorder, Trace, disorder};
+use crate::outcome;
+use crate::schoenhardt::{Class, Piece, pieces_left};
 use tetflip::cdt::Cdt;
 use tetflip::error::Failure;
 use tetflip::mesh::VertexId;
@@ -8,10 +12,6 @@ use tetflip::recover::flips::FlipCounts;
 use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
-use tetflip_experiments::family::{Member, Prepared};
-use tetflip_experiments::order::{Disorder, Trace, disorder};
-use tetflip_experiments::outcome;
-use tetflip_experiments::schoenhardt::{Class, Piece, pieces_left};
 
 /// The tetrahedra of a mesh, by their vertices, in an order that depends on them alone.
 pub type Tets = Vec<[VertexId; 4]>;

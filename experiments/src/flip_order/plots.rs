@@ -1,8 +1,8 @@
 //! `flip_order-precision.svg`: the failure rate of rounded times against their precision, by family.
 
-use crate::row::{ALL, Summary};
-use tetflip_experiments::family::FAMILIES;
-use tetflip_experiments::plot::{Plot, PlotError, Scale, Series};
+use crate::family::FAMILIES;
+use crate::flip_order::row::{ALL, Summary};
+use crate::plot::{Plot, PlotError, Scale, Series};
 
 /// The plot. Families without a failure at some precision have no point there, because the axes are logarithmic.
 ///

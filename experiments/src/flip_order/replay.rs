@@ -1,15 +1,14 @@
 //! One input again, with everything that happens.
 
-use crate::measure::{run, watched};
-use crate::plan::name_of;
+use crate::family::{Member, Prepared};
+use crate::flip_order::measure::{run, watched};
+use crate::flip_order::plan::name_of;
+use crate::order::{Insertion, disorder, exact_ranks, is_left};
 use std::fmt::Write;
 use tetflip::mesh::VertexId;
-use tetflip::plc::Plc;
 use tetflip::predicate::PointStore;
 use tetflip::recover::flips::Fate;
 use tetflip::recover::polygons::Times;
-use tetflip_experiments::family::{Member, Prepared};
-use tetflip_experiments::order::{Insertion, disorder, exact_ranks, is_left};
 
 /// What happens when the polygons of a member are inserted with the given number type: all events that came off the queue
 /// alive, each with its rank in the exact order, and the end.
@@ -107,37 +106,9 @@ trait NextIf: Iterator {
 
 impl<I: Iterator> NextIf for I {}
 
-/// The PLC as a `.poly` file. Doubles are written so that they are read back exactly.
-pub fn poly(plc: &Plc) -> String {
-    let mut text = format!("{} 3 0 0\n", plc.vertices.len());
-    for (i, [x, y, z]) in plc.vertices.iter().enumerate() {
-        let _ = writeln!(text, "{i} {x:?} {y:?} {z:?}");
-    }
-    let _ = writeln!(text, "{} 1", plc.facets.len());
-    for facet in &plc.facets {
-        let _ = writeln!(text, "{} 0 {}", facet.polygons.len(), facet.marker);
-        for polygon in &facet.polygons {
-            let _ = writeln!(text, "{} {}", polygon.len(), names(polygon));
-        }
-    }
-    text + "0\n"
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tetflip::format::read_plc;
-
-    #[test]
-    fn a_written_plc_is_read_back() {
-        for member in ["prism/end:78", "walls/standing:1", "boxes/boxes:2"] {
-            let plc = member.parse::<Member>().expect("a name").prepare().plc;
-            let directory = tempfile::TempDir::new().expect("a directory");
-            let path = directory.path().join("a.poly");
-            std::fs::write(&path, poly(&plc)).expect("written");
-            assert_eq!(read_plc(&path).expect("a PLC"), plc);
-        }
-    }
 
     #[test]
     fn a_replay_tells_the_order_and_the_end() {

@@ -1,10 +1,10 @@
 //! The rows of the tables. The README of this package explains the columns.
 
-use crate::measure::{Measured, Run};
-use crate::plan::{NumberType, Plan, name_of, precision};
+use crate::family::FAMILIES;
+use crate::flip_order::measure::{Measured, Run};
+use crate::flip_order::plan::{NumberType, Plan, name_of, precision};
+use crate::schoenhardt::Class;
 use serde::Serialize;
-use tetflip_experiments::family::FAMILIES;
-use tetflip_experiments::schoenhardt::Class;
 
 /// `flip_order.csv`: one number type on one subfamily.
 #[derive(Clone, Debug, PartialEq, Default, Serialize)]
@@ -251,7 +251,7 @@ pub fn table(rows: &[Summary], plan: &Plan) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::measure;
+    use crate::flip_order::measure::measure;
 
     #[test]
     fn rows_add_up() {

@@ -1,7 +1,7 @@
 //! What the rows must say. Of times nothing is asserted.
 
-use crate::row::Row;
-use tetflip_experiments::expectation::{Check, Expectation, check_rows};
+use crate::expectation::{Check, Expectation, check_rows};
+use crate::growth::row::Row;
 
 /// All expectations.
 pub fn expectations(rows: &[Row]) -> Vec<Expectation> {

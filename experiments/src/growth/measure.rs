@@ -1,13 +1,13 @@
 //! One size: both methods on copies of one tetrahedralization, timed in turns.
 
-use crate::row::Row;
+use crate::growth::row::Row;
+use crate::method::Method;
+use crate::outcome;
+use crate::sample::{median, minimum, rounded};
+use crate::scene::Slab;
+use crate::turns::{Effort, Runs, Scene};
 use tetflip::cdt::Cdt;
 use tetflip::report::Report;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::outcome;
-use tetflip_experiments::sample::{median, minimum, rounded};
-use tetflip_experiments::scene::Slab;
-use tetflip_experiments::turns::{Effort, Runs, Scene};
 
 /// One row per method.
 pub fn measure(slab: Slab, methods: &[Method], effort: &Effort) -> Vec<Row> {
@@ -70,9 +70,9 @@ fn peak_megabytes() -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expect::expectations;
-    use crate::plan::{METHODS, Plan, slab};
-    use tetflip_experiments::expectation::Expectation;
+    use crate::expectation::Expectation;
+    use crate::growth::expect::expectations;
+    use crate::growth::plan::{METHODS, Plan, slab};
 
     #[test]
     fn a_small_size_has_good_rows() {

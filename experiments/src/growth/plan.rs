@@ -1,9 +1,9 @@
 //! Which sizes, how often.
 
+use crate::method::Method;
+use crate::scene::Slab;
+use crate::turns::Effort;
 use tetflip::recover::polygons::{Insertion, Times};
-use tetflip_experiments::method::Method;
-use tetflip_experiments::scene::Slab;
-use tetflip_experiments::turns::Effort;
 
 /// Crossing tetrahedra for each vertex of the slab.
 const DENSITY: f64 = 3.3;

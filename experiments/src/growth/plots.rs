@@ -1,8 +1,8 @@
 //! `growth.svg`: seconds against vertices, with a line n log n.
 
-use crate::row::Row;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::plot::{Plot, PlotError, Scale, Series};
+use crate::growth::row::Row;
+use crate::method::Method;
+use crate::plot::{Plot, PlotError, Scale, Series};
 
 /// The plot. The line goes through the first point of the first method.
 ///
@@ -44,7 +44,7 @@ fn guide(series: &Series) -> Series {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::METHODS;
+    use crate::growth::plan::METHODS;
 
     #[test]
     fn the_guide_starts_at_the_first_point() {

@@ -1,10 +1,10 @@
 //! The rows of the tables: `growth.csv` and `growth-summary.csv`.
 
-use crate::fit::power_law;
+use crate::growth::fit::power_law;
+use crate::method::Method;
+use crate::outcome;
+use crate::sample::rounded;
 use serde::Serialize;
-use tetflip_experiments::method::Method;
-use tetflip_experiments::outcome;
-use tetflip_experiments::sample::rounded;
 
 /// One method at one size. The README of the package has the meaning of the columns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -134,7 +134,7 @@ pub fn table(rows: &[Row], summaries: &[Summary]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::METHODS;
+    use crate::growth::plan::METHODS;
 
     #[test]
     fn exponents_of_successes() {

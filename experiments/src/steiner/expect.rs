@@ -1,8 +1,8 @@
 //! What the rows must say. Of the number of points, and of other programs, next to nothing is asserted.
 
-use crate::measure::TETFLIP;
-use crate::row::Row;
-use tetflip_experiments::expectation::{Check, Expectation, check_rows};
+use crate::expectation::{Check, Expectation, check_rows};
+use crate::steiner::measure::TETFLIP;
+use crate::steiner::row::Row;
 
 /// Steiner points for each segment of a built-in model, at most. Recovery that is about to run away has more.
 const MOST_PER_SEGMENT: usize = 150;
@@ -10,7 +10,7 @@ const MOST_PER_SEGMENT: usize = 150;
 /// All expectations.
 pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
     let ours = |r: &Row| r.method == TETFLIP;
-    let built_in = |r: &Row| ours(r) && r.source == crate::BUILT_IN;
+    let built_in = |r: &Row| ours(r) && r.source == crate::steiner::BUILT_IN;
     let few = |r: &Row| r.steiner_points <= r.segments.map(|n| MOST_PER_SEGMENT * n);
     let checks: [Check<Row>; 3] = [
         ("segment recovery ends on every built-in model", &|r| {
@@ -33,7 +33,7 @@ mod tests {
     #[test]
     fn each_expectation_can_fail() {
         let good = Row {
-            source: crate::BUILT_IN,
+            source: crate::steiner::BUILT_IN,
             method: TETFLIP.to_string(),
             segments: Some(2),
             steiner_points: Some(7),

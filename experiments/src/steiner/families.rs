@@ -1,9 +1,9 @@
 //! PLCs with small angles: what makes segment recovery insert points without end. Coordinates come from correctly rounded
 //! operations only, so that they are the same bits everywhere.
 
+use crate::family::draw::Draw;
 use tetflip::mesh::VertexId;
 use tetflip::plc::{Facet, Plc, Segment};
-use tetflip_experiments::family::draw::Draw;
 
 /// A named PLC.
 pub struct Model {

@@ -1,8 +1,10 @@
 //! One model: this library, with the mesh verified, and the rivals.
 
-use crate::families::Model;
-use crate::rival::Rival;
-use crate::row::Row;
+use crate::outcome;
+use crate::sample::rounded;
+use crate::steiner::families::Model;
+use crate::steiner::rival::Rival;
+use crate::steiner::row::Row;
 use std::time::Duration;
 use tetflip::cdt::{Cdt, Options};
 use tetflip::error::Failure;
@@ -10,22 +12,14 @@ use tetflip::mesh::ExportedMesh;
 use tetflip::plc::Plc;
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
-use tetflip_experiments::outcome;
-use tetflip_experiments::sample::rounded;
 
 /// What tables call this library.
 pub const TETFLIP: &str = "tetflip";
 
 /// One row per method.
-pub fn measure(
-    source: &'static str,
-    model: &Model,
-    rivals: &[Rival],
-    limit: Duration,
-    with_mesh: bool,
-) -> Vec<Row> {
+pub fn measure(source: &'static str, model: &Model, rivals: &[Rival], limit: Duration) -> Vec<Row> {
     let plc = &model.plc;
-    let mut rows = vec![ours(plc, with_mesh)];
+    let mut rows = vec![ours(plc)];
     rows.extend(rivals.iter().map(|rival| {
         let run = rival.run(plc, limit);
         Row {
@@ -46,7 +40,7 @@ pub fn measure(
 
 /// Segment recovery is what counts: the outcome and the seconds are its own, and polygons that cannot be inserted leave
 /// `verified` empty.
-fn ours(plc: &Plc, with_mesh: bool) -> Row {
+fn ours(plc: &Plc) -> Row {
     let mut report = Report::default();
     let result = Cdt::with_segments(plc, true, &mut report);
     let outcome = outcome::word(&result);
@@ -60,7 +54,7 @@ fn ours(plc: &Plc, with_mesh: bool) -> Row {
         outcome,
         ..Row::default()
     };
-    if let (Ok(mut cdt), true) = (result, with_mesh)
+    if let Ok(mut cdt) = result
         && let Ok(mesh) = mesh(&mut cdt, plc, &mut report)
     {
         let options = VerifyOptions {
@@ -80,16 +74,16 @@ fn mesh(cdt: &mut Cdt, plc: &Plc, report: &mut Report) -> Result<ExportedMesh, F
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expect::expectations;
-    use crate::families::models;
-    use tetflip_experiments::expectation::Expectation;
+    use crate::expectation::Expectation;
+    use crate::steiner::expect::expectations;
+    use crate::steiner::families::models;
 
     #[test]
     fn small_models_have_good_rows() {
         let all = models(true);
         let small = all.iter().filter(|m| m.plc.vertices.len() < 20);
         let rows: Vec<Row> = small
-            .flat_map(|m| measure(crate::BUILT_IN, m, &[], Duration::ZERO, true))
+            .flat_map(|m| measure(crate::steiner::BUILT_IN, m, &[], Duration::ZERO))
             .collect();
         assert!(rows.len() >= 6);
         assert!(rows.iter().all(|r| r.verified == Some(true)));

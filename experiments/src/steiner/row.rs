@@ -1,7 +1,7 @@
 //! The rows of the tables: `steiner.csv` and `steiner-summary.csv`.
 
+use crate::outcome;
 use serde::Serialize;
-use tetflip_experiments::outcome;
 
 /// One method on one model. The README of the package has the meaning of the columns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

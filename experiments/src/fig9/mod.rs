@@ -1,0 +1,91 @@
+//! The experiment of §3.4 and Figs. 8 and 9.
+//!
+//! **Question.** How do the times of cavity retriangulation and of flips grow with the size of the cavity, and what does
+//! an exact order of the flips cost compared with the paper's rounded times?
+//!
+//! **Inputs.** Random vertices near the x-y plane and a rectangle in it ([`crate::scene`]); from about 30
+//! crossing tetrahedra to 100 000, several seeds for each size. A row is the insertion of the rectangle by one method.
+//!
+//! **Columns.** Of `fig9.csv`: [`row::Row`]; of `fig9-summary.csv`: [`summary::Summary`]. The README of this package has
+//! their meaning. Seconds are wall clock of the polygon insertion alone, in one thread.
+//!
+//! **Expected.** Cavities and exact flips always succeed; every success is verified and all of one scene are the same
+//! mesh ([`expect`]). Flips with rounded times may fail: then the row has the outcome. Asserted at the end.
+
+mod expect;
+mod measure;
+mod plan;
+mod plots;
+mod row;
+mod summary;
+
+use crate::experiment::{Answer, Context, Experiment};
+use crate::method::Method;
+use plan::Plan;
+use row::Row;
+use std::error::Error;
+use std::fmt::Write;
+
+/// The figure.
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "fig9",
+    question: "time of both algorithms by the number of crossing tetrahedra (paper, Fig. 9)",
+    seconds: 235,
+    run,
+};
+
+fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
+    let plan = if context.quick {
+        Plan::quick()
+    } else {
+        Plan::full()
+    };
+    let methods = Method::all();
+    let rows = measure_all(&plan, &methods, context);
+    let summaries = summary::summaries(&rows, &methods);
+
+    let results = &context.results;
+    let mut files = vec![
+        results.rows("fig9", &rows)?,
+        results.rows("fig9-summary", &summaries)?,
+    ];
+    for figure in plots::FIGURES {
+        files.push(results.text(figure.file, &figure.svg(&rows, &methods)?)?);
+    }
+    let table = summary::table(&summaries, &methods);
+    let failures = failures(&rows);
+    Ok(Answer {
+        text: format!(
+            "Median milliseconds of the insertion of the rectangle:\n\n{table}\n{failures}"
+        ),
+        files,
+        expectations: expect::expectations(&rows),
+    })
+}
+
+/// All scenes.
+fn measure_all(plan: &Plan, methods: &[Method], context: &Context) -> Vec<Row> {
+    let bar = context.bar(plan.scenes.iter().map(plan::weight).sum());
+    let mut rows = Vec::new();
+    for &slab in &plan.scenes {
+        bar.set_message(format!("{} vertices, seed {}", slab.vertices, slab.seed));
+        let scene = measure::scene(slab, methods, &plan.effort);
+        rows.extend(scene.into_iter().map(|row| Row {
+            commit: context.commit.clone(),
+            ..row
+        }));
+        bar.inc(plan::weight(&slab));
+    }
+    bar.finish_and_clear();
+    rows
+}
+
+/// Which runs failed.
+fn failures(rows: &[Row]) -> String {
+    let failed: Vec<&Row> = rows.iter().filter(|r| !r.is_ok()).collect();
+    let mut text = format!("{} runs, {} of them failed\n", rows.len(), failed.len());
+    for row in failed {
+        let _ = writeln!(text, "  {}: {}, {} left", row.name(), row.outcome, row.left);
+    }
+    text
+}

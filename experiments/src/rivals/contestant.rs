@@ -1,0 +1,137 @@
+//! Who takes part.
+
+use super::process;
+use crate::experiment::Context;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// A program with its way to be called.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Contestant {
+    /// This library.
+    Ours(Ours),
+    /// TetGen: Delaunay tetrahedralization, or a CDT by cavity retriangulation without optimization.
+    TetGen {
+        /// The program.
+        program: String,
+        /// What it says of itself.
+        version: String,
+    },
+    /// gmsh's parallel Delaunay kernel, points only.
+    Hxt {
+        /// A Python that has gmsh.
+        python: String,
+        /// Of gmsh.
+        version: String,
+        /// How many it may use.
+        threads: u32,
+    },
+}
+
+/// What of this library takes part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ours {
+    /// The default where there is nothing to choose: points only.
+    Delaunay,
+    /// Polygons by cavity retriangulation.
+    Cavity,
+    /// Polygons by flips with filtered times.
+    Flips,
+    /// The exact verifier, on the mesh of cavity retriangulation.
+    Verifier,
+}
+
+impl Ours {
+    /// All of them.
+    pub const ALL: [Ours; 4] = [Ours::Delaunay, Ours::Cavity, Ours::Flips, Ours::Verifier];
+
+    /// The word of tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Ours::Delaunay => "delaunay",
+            Ours::Cavity => "cavity",
+            Ours::Flips => "flips",
+            Ours::Verifier => "verify",
+        }
+    }
+}
+
+impl Contestant {
+    /// What tables call it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Contestant::Ours(_) => "tetflip",
+            Contestant::TetGen { .. } => "tetgen",
+            Contestant::Hxt { .. } => "hxt",
+        }
+    }
+
+    /// How it is called.
+    pub fn method(&self) -> String {
+        match self {
+            Contestant::Ours(what) => what.word().to_string(),
+            Contestant::TetGen { .. } => "cavity".to_string(),
+            Contestant::Hxt { .. } => "delaunay".to_string(),
+        }
+    }
+
+    /// Which release.
+    pub fn version(&self) -> String {
+        match self {
+            Contestant::Ours(_) => env!("CARGO_PKG_VERSION").to_string(),
+            Contestant::TetGen { version, .. } | Contestant::Hxt { version, .. } => version.clone(),
+        }
+    }
+
+    /// How many threads it may use.
+    pub fn threads(&self) -> u32 {
+        match self {
+            Contestant::Hxt { threads, .. } => *threads,
+            _ => 1,
+        }
+    }
+}
+
+/// All that are installed, and the names of those that are not.
+pub fn contestants(context: &Context) -> (Vec<Contestant>, Vec<String>) {
+    let mut programs: Vec<Contestant> = Ours::ALL.map(Contestant::Ours).into();
+    let mut missing = Vec::new();
+    match &context.tetgen {
+        Some(program) => programs.push(Contestant::TetGen {
+            program: program.clone(),
+            version: tetgen_version(program),
+        }),
+        None => missing.push("tetgen (no such program)".to_string()),
+    }
+    match gmsh_version(&context.python) {
+        Some(version) => programs.extend([1, 2].map(|threads| Contestant::Hxt {
+            python: context.python.clone(),
+            version: version.clone(),
+            threads,
+        })),
+        None => missing.push(format!("hxt ({} has no module gmsh)", context.python)),
+    }
+    (programs, missing)
+}
+
+/// TetGen does not tell its version; the package that it came with may.
+fn tetgen_version(program: &str) -> String {
+    let query = ["-W", "-f=${Version}", program].map(str::to_string);
+    let ran = process::run("dpkg-query", &query, Duration::from_secs(10));
+    let first = ran.text.lines().next().unwrap_or_default().trim();
+    match first {
+        version if ran.ok && !version.is_empty() => version.to_string(),
+        _ => "unknown".to_string(),
+    }
+}
+
+fn gmsh_version(python: &str) -> Option<String> {
+    let output = Command::new(python)
+        .args(["-c", "import gmsh; print(gmsh.__version__)"])
+        .stdin(Stdio::null())
+        .stderr(Stdio::null())
+        .output()
+        .ok()?;
+    let version = String::from_utf8(output.stdout).ok()?.trim().to_string();
+    (output.status.success() && !version.is_empty()).then_some(version)
+}

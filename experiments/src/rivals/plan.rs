@@ -1,0 +1,201 @@
+//! Which inputs, how often.
+
+use super::contestant::{Contestant, Ours};
+use super::points::Spread;
+use crate::scene::Slab;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use tetflip::format::{read_plc, write_poly};
+use tetflip::plc::Plc;
+
+/// What an input is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Points: the Delaunay tetrahedralization.
+    Points {
+        /// Whether it is unique.
+        generic: bool,
+    },
+    /// One polygon through random points.
+    Scene,
+    /// A model of the user's.
+    Model,
+}
+
+impl Kind {
+    /// The word of tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Kind::Points { .. } => "points",
+            Kind::Scene => "scene",
+            Kind::Model => "model",
+        }
+    }
+}
+
+/// One input.
+pub struct Input {
+    /// What tables call it.
+    pub name: String,
+    /// What it is for.
+    pub kind: Kind,
+    /// How it is made.
+    source: Source,
+}
+
+enum Source {
+    Points(Spread, usize),
+    Scene(Slab),
+    File(PathBuf),
+}
+
+/// An input as the programs read it.
+pub struct Files {
+    /// A `.node` or `.poly` file.
+    pub path: PathBuf,
+    /// How many vertices it has.
+    pub vertices: usize,
+    /// How many facets.
+    pub facets: usize,
+}
+
+/// What to run.
+pub struct Plan {
+    /// In the order of the rows.
+    pub inputs: Vec<Input>,
+    /// How often each program runs on each.
+    pub rounds: usize,
+}
+
+/// The number of points in the comparisons with other programs.
+pub const MILLION: usize = 1_000_000;
+
+impl Plan {
+    /// Some minutes.
+    pub fn full() -> Plan {
+        let mut inputs = vec![points(Spread::Cube, MILLION)];
+        inputs.extend(Spread::ALL.map(|spread| points(spread, 200_000)));
+        inputs.extend([1000, 3000, 10_000, 30_000, 100_000].map(scene));
+        Plan { inputs, rounds: 5 }
+    }
+
+    /// Some seconds.
+    pub fn quick() -> Plan {
+        let mut inputs: Vec<Input> = Spread::ALL.map(|spread| points(spread, 2000)).into();
+        inputs.extend([300, 1000].map(scene));
+        Plan { inputs, rounds: 1 }
+    }
+
+    /// Adds every file of a directory that is a PLC with facets, in order of name.
+    ///
+    /// # Errors
+    /// If the directory cannot be read.
+    pub fn add_models(&mut self, directory: &Path) -> Result<(), Box<dyn Error>> {
+        let entries = std::fs::read_dir(directory)?;
+        let mut paths: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
+        paths.sort();
+        for path in paths {
+            if read_plc(&path).is_ok_and(|plc| !plc.facets.is_empty()) {
+                self.inputs.push(Input {
+                    name: path
+                        .file_name()
+                        .unwrap_or_default()
+                        .to_string_lossy()
+                        .into(),
+                    kind: Kind::Model,
+                    source: Source::File(path),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn points(spread: Spread, n: usize) -> Input {
+    Input {
+        name: format!("{}/{n}", spread.word()),
+        kind: Kind::Points {
+            generic: spread.is_generic(),
+        },
+        source: Source::Points(spread, n),
+    }
+}
+
+/// The scene of Fig. 8 with about so many crossing tetrahedra.
+fn scene(crossing: u64) -> Input {
+    Input {
+        name: format!("slab/{crossing}"),
+        kind: Kind::Scene,
+        source: Source::Scene(crate::growth::slab(crossing)),
+    }
+}
+
+impl Input {
+    /// Writes it into a directory.
+    ///
+    /// # Errors
+    /// If that is impossible.
+    pub fn write(&self, directory: &Path) -> Result<Files, Box<dyn Error>> {
+        let plc = match &self.source {
+            Source::Points(spread, n) => Plc {
+                vertices: spread.points(*n),
+                ..Plc::default()
+            },
+            Source::Scene(slab) => slab.plc(),
+            Source::File(path) => read_plc(path)?,
+        };
+        let path = if plc.facets.is_empty() {
+            let path = directory.join("input.node");
+            std::fs::write(&path, node(&plc.vertices))?;
+            path
+        } else {
+            let path = directory.join("input.poly");
+            write_poly(&path, &plc)?;
+            path
+        };
+        Ok(Files {
+            path,
+            vertices: plc.vertices.len(),
+            facets: plc.facets.len(),
+        })
+    }
+
+    /// Whether a program takes part.
+    pub fn is_for(&self, contestant: &Contestant, vertices: usize) -> bool {
+        let points = matches!(self.kind, Kind::Points { .. });
+        match contestant {
+            Contestant::Ours(Ours::Delaunay) | Contestant::Hxt { threads: 1, .. } => points,
+            // What two threads gain shows on the largest input.
+            Contestant::Hxt { .. } => points && vertices >= MILLION,
+            Contestant::Ours(Ours::Cavity | Ours::Flips) => !points,
+            Contestant::Ours(Ours::Verifier) => vertices < MILLION,
+            Contestant::TetGen { .. } => true,
+        }
+    }
+}
+
+fn node(points: &[[f64; 3]]) -> String {
+    use std::fmt::Write;
+    let mut text = format!("{} 3 0 0\n", points.len());
+    for (i, [x, y, z]) in points.iter().enumerate() {
+        let _ = writeln!(text, "{i} {x:?} {y:?} {z:?}");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        let directory = tempfile::TempDir::new().expect("a directory");
+        for input in Plan::quick().inputs {
+            let files = input.write(directory.path()).expect("written");
+            let plc = read_plc(&files.path).expect("a file");
+            assert_eq!(plc.vertices.len(), files.vertices, "{}", input.name);
+            assert_eq!(plc.facets.len(), files.facets);
+            assert_eq!(plc.facets.is_empty(), input.kind.word() == "points");
+        }
+    }
+}
