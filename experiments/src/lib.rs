@@ -13,6 +13,7 @@ pub mod order;
 pub mod outcome;
 pub mod plot;
 pub mod record;
+pub mod report;
 pub mod rivals;
 pub mod sample;
 pub mod scaling;

@@ -11,7 +11,7 @@ use tetflip_experiments::family::Member;
 use tetflip_experiments::ledger::{Entry, Ledger};
 use tetflip_experiments::record::{Machine, Results};
 use tetflip_experiments::steiner::rival::Rival;
-use tetflip_experiments::{flip_order, rivals, scaling};
+use tetflip_experiments::{flip_order, report, rivals, scaling};
 
 /// The experiments of tetflip: CSV files and plots in results/.
 ///
@@ -39,6 +39,15 @@ enum Verb {
         /// Writes the PLC to this file, too.
         #[arg(long, value_name = "FILE.poly")]
         write: Option<PathBuf>,
+    },
+    /// Makes a page of results, `report.html`; running all experiments ends with it.
+    Report {
+        /// The results.
+        #[arg(long, value_name = "DIR", default_value = "results")]
+        results: PathBuf,
+        /// The page. [default: report.html beside the results]
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
     },
     /// This library as one of the programs that the experiment `rivals` runs.
     #[command(hide = true)]
@@ -106,6 +115,7 @@ fn main() -> ExitCode {
             times,
             write,
         }) => replay(input, &times, write.as_deref()),
+        Some(Verb::Report { results, output }) => make_report(&results, output),
         Some(Verb::Contestant { what, input }) => rivals::take_part(&what, &input).map(|()| true),
         Some(Verb::Scale { what, size }) => scaling::take_part(&what, size).map(|()| true),
         Some(Verb::Limited {
@@ -141,6 +151,12 @@ fn replay(input: Member, times: &str, write: Option<&Path>) -> Result<bool, Box<
         tetflip::format::write_poly(path, &input.prepare().plc)?;
     }
     print!("{}", flip_order::replay::replay(input, number));
+    Ok(true)
+}
+
+fn make_report(results: &Path, output: Option<PathBuf>) -> Result<bool, Box<dyn Error>> {
+    let path = report::write(results, output)?;
+    println!("{}", path.display());
     Ok(true)
 }
 
@@ -208,6 +224,7 @@ fn run_all(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         ledger.record(&results, entry)?;
     }
     println!("results are in {}", results.directory().display());
+    make_report(results.directory(), None)?;
     if !bad.is_empty() {
         println!("not as expected: {}", bad.join(", "));
     }
