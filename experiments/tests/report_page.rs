@@ -110,7 +110,7 @@ fn the_page_works_in_a_browser() {
         for trouble in ["Uncaught", "Refused to", "violates the following"] {
             assert!(!messages.contains(trouble), "{messages}");
         }
-        assert!(dom.contains("<table class=\"claims\">") && dom.contains("<table class=\"data\""));
+        assert!(dom.contains("<table class=\"claims\">") && dom.contains("<table class=\"data"));
         assert!(
             dom.matches("<option value=").count() >= 5,
             "the scenes can be chosen"

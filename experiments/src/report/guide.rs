@@ -152,7 +152,7 @@ mod tests {
         assert_eq!(unit("growth", "crossing_tets"), "count", "as in fig9");
         assert_eq!(unit("flip_order", "discarded_outside_runs"), "inputs");
         assert_eq!(unit("scaling", "peak_mebibytes"), "MiB");
-        assert_eq!(unit("rivals", "seconds_over_tetgen"), "–".replace('–', ""));
+        assert_eq!(unit("rivals", "seconds_over_tetgen"), "");
         assert_eq!(unit("none", "microseconds_each"), "µs");
         let ties = guide.column("fig9", "ties");
         assert!(ties.meaning.starts_with("equal times"), "{ties:?}");

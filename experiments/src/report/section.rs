@@ -48,6 +48,16 @@ pub fn html(section: &Section, files: &Files, guide: &Guide) -> String {
             }
         }
     }
+    for name in unnamed(files, Some(stem)) {
+        match name.rsplit_once('.') {
+            Some((name, "svg")) => match figure::html(files, name, "") {
+                Ok(figure) => figures += &figure,
+                Err(missing) => tables += &absent(&missing),
+            },
+            Some((name, _)) => tables += &rows(files, guide, stem, (name, "More rows."), None),
+            None => {}
+        }
+    }
     if !figures.is_empty() {
         let _ = writeln!(html, "<div class=\"figures\">\n{figures}</div>");
     }
@@ -146,15 +156,10 @@ pub fn runs(files: &Files, guide: &Guide) -> String {
     )
 }
 
-/// Files that no section names.
+/// Files that belong to no section.
 pub fn others(files: &Files, guide: &Guide) -> String {
-    let parts = SECTIONS.iter().flat_map(|s| s.parts);
-    let known: Vec<String> = parts.map(|p| p.file()).collect();
     let mut html = String::new();
-    for name in files.present() {
-        if known.contains(&name) || SHOWN_ELSEWHERE.contains(&&*name) {
-            continue;
-        }
+    for name in unnamed(files, None) {
         html += &match name.rsplit_once('.') {
             Some((stem, "svg")) => figure::html(files, stem, "").unwrap_or_else(|e| absent(&e)),
             Some((stem, _)) => table(files, guide, stem, stem, ""),
@@ -165,6 +170,25 @@ pub fn others(files: &Files, guide: &Guide) -> String {
         return html;
     }
     format!("<section id=\"others\">\n<h2>Other files</h2>\n{html}</section>\n")
+}
+
+/// Files that no section names, but whose names begin with the stem of this section and a hyphen, or with none's.
+fn unnamed(files: &Files, stem: Option<&str>) -> Vec<String> {
+    let parts = SECTIONS.iter().flat_map(|s| s.parts);
+    let known: Vec<String> = parts.map(|p| p.file()).collect();
+    let belongs = |name: &String, stem: &str| {
+        let rest = name.strip_prefix(stem);
+        rest.is_some_and(|r| r.starts_with('-'))
+    };
+    let stem_of = |name: &String| {
+        let stems = SECTIONS.iter().map(|s| s.stem);
+        stems.into_iter().find(|stem| belongs(name, stem))
+    };
+    let mut names = files.present();
+    names.retain(|n| {
+        !known.contains(n) && !SHOWN_ELSEWHERE.contains(&n.as_str()) && stem_of(n) == stem
+    });
+    names
 }
 
 fn pivoted(files: &Files, pivot: &Pivot) -> String {

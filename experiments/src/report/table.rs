@@ -95,7 +95,9 @@ impl Table {
             return html + &table.data(guide, stem, name);
         }
         let numeric = table.numeric();
-        html += "<div class=\"scroll\" tabindex=\"0\"><table class=\"data\"><thead><tr>";
+        html += "<div class=\"scroll\" tabindex=\"0\"><table class=\"";
+        html += table.class();
+        html += "\"><thead><tr>";
         for (i, column) in table.columns.iter().enumerate() {
             html += &header(guide, stem, column, numeric[i]);
         }
@@ -118,8 +120,9 @@ impl Table {
         let rows: Vec<String> = self.rows.iter().map(|row| row.join("\t")).collect();
         let json = serde_json::to_string(&rows.join("\n")).expect("a string");
         format!(
-            "<div class=\"scroll\" tabindex=\"0\"><table class=\"data\" data-rows=\"rows-{name}\"><thead><tr>{headers}</tr></thead>\
+            "<div class=\"scroll\" tabindex=\"0\"><table class=\"{}\" data-rows=\"rows-{name}\"><thead><tr>{headers}</tr></thead>\
              <tbody></tbody></table></div>\n<script type=\"application/json\" id=\"rows-{name}\">{}</script>\n",
+            self.class(),
             script_json(&json)
         )
     }
@@ -176,6 +179,15 @@ impl Table {
             pivot.file,
             pivot.by[0]
         ))
+    }
+
+    /// For the style: wide tables are printed in small letters.
+    fn class(&self) -> &'static str {
+        if self.columns.len() > 12 {
+            "data wide"
+        } else {
+            "data"
+        }
     }
 
     /// Which columns have numbers alone.

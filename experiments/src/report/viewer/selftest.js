@@ -33,13 +33,38 @@ function selfTest() {
     check(agree === (scene.runs[1].outcome === "ok"), `${scene.name}: both end alike`);
     walk(scene, check);
   }
-  check(document.querySelectorAll("table.paper").length === 2, "the paper’s tables");
   document.querySelectorAll("details").forEach((details) => { details.open = true; });
   document.querySelectorAll("table[data-rows]").forEach((table) => {
     fillTable(table);
     check(table.tBodies[0].rows.length > 0, `rows of ${table.dataset.rows}`);
   });
+  document.querySelectorAll("table.data").forEach((table) => tryTable(table, check));
+  check(document.querySelectorAll("table.paper").length === 2, "the paper’s tables");
   return { problems, steps };
+}
+
+/** Sorts a table by its first column of numbers, if it can be, and filters it, if it can be, and undoes that. */
+function tryTable(table, check) {
+  const name = table.querySelector("th").textContent;
+  const [header, body] = [table.tHead.rows[0], table.tBodies[0]];
+  const column = [...header.cells].findIndex((cell) => cell.classList.contains("n"));
+  const button = header.cells[column]?.querySelector("button");
+  if (button) {
+    button.click();
+    const values = [...body.rows].map((row) => parseFloat(row.cells[column].textContent)).filter((x) => !Number.isNaN(x));
+    check(values.every((x, i) => i === 0 || values[i - 1] <= x), `${name}: sorted`);
+  }
+  const input = table.closest(".scroll").previousElementSibling?.querySelector("input[type=search]");
+  if (input) {
+    const shown = () => [...body.rows].filter((row) => !row.hidden).length;
+    const filter = (text) => { input.value = text; input.dispatchEvent(new Event("input")); };
+    filter(body.rows[0].cells[0].textContent);
+    check(shown() >= 1, `${name}: filtered`);
+    filter("no row has these words");
+    check(shown() === 0, `${name}: all filtered away`);
+    filter("");
+    check(shown() === body.rows.length, `${name}: all back`);
+  }
 }
 
 /** With the viewer's own controls, to the end and back, in both modes. */

@@ -168,7 +168,7 @@ function startViewer() {
         zoom(Math.exp(event.deltaY * 0.002));
       }, { passive: false });
     }
-    const resized = new ResizeObserver(() => { stages.forEach((stage) => stage.resize()); draw(); });
+    const resized = new ResizeObserver(() => stages.forEach((stage) => { stage.resize(); stage.render(view); }));
     panels.forEach((panel) => resized.observe(panel.querySelector(".labels")));
     stages.forEach((stage) => stage.resize());
   }
