@@ -3,7 +3,9 @@
 pub mod exactness_cost;
 pub mod expectation;
 pub mod experiment;
+pub mod failures;
 pub mod family;
+pub mod fig8;
 pub mod fig9;
 pub mod flip_order;
 pub mod growth;
@@ -11,6 +13,7 @@ pub mod ledger;
 pub mod method;
 pub mod order;
 pub mod outcome;
+pub mod picture;
 pub mod plot;
 pub mod record;
 pub mod rivals;

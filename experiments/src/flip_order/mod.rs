@@ -13,7 +13,7 @@
 //! tetrahedra of cavity retriangulation ([`expect`]). Rounded times may fail. Asserted at the end.
 
 mod expect;
-mod measure;
+pub(crate) mod measure;
 pub mod plan;
 mod plots;
 pub mod replay;
