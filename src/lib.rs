@@ -32,6 +32,7 @@ pub mod check;
 pub mod delaunay;
 pub mod error;
 pub mod format;
+pub mod generate;
 pub mod mesh;
 pub mod number;
 pub mod plc;

@@ -5,6 +5,7 @@ mod cli;
 use clap::{Parser, Subcommand};
 use cli::check::{CheckArguments, check_file};
 use cli::delaunay::{DelaunayArguments, delaunay_of_file};
+use cli::generate::{GenerateArguments, generate_file};
 use cli::mesh::{MeshArguments, mesh};
 use cli::survey::{SurveyArguments, survey};
 use cli::verify::{VerifyArguments, verify_files};
@@ -31,6 +32,8 @@ enum Command {
     Verify(VerifyArguments),
     /// Make the Delaunay tetrahedralization of the vertices of a file, ignoring its facets.
     Delaunay(DelaunayArguments),
+    /// Make a model of a kind and size, from a seed.
+    Generate(GenerateArguments),
     /// Make meshes of a whole collection, each by several methods, and a table of what came of it.
     Survey(SurveyArguments),
 }
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check_file(&arguments),
         Command::Verify(arguments) => verify_files(&arguments),
         Command::Delaunay(arguments) => delaunay_of_file(&arguments),
+        Command::Generate(arguments) => generate_file(&arguments),
         Command::Survey(arguments) => survey(&arguments),
     };
     match result {

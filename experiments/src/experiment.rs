@@ -69,11 +69,15 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order in which they are run.
-pub const ALL: [Experiment; 7] = [
+pub const ALL: [Experiment; 11] = [
+    crate::models::EXPERIMENT,
+    crate::fig8::EXPERIMENT,
     crate::fig9::EXPERIMENT,
+    crate::table1::EXPERIMENT,
     crate::growth::EXPERIMENT,
     crate::exactness_cost::EXPERIMENT,
     crate::flip_order::EXPERIMENT,
+    crate::failures::EXPERIMENT,
     crate::steiner::EXPERIMENT,
     crate::rivals::EXPERIMENT,
     crate::scaling::EXPERIMENT,

@@ -2,6 +2,7 @@
 
 pub(crate) mod check;
 pub(crate) mod delaunay;
+pub(crate) mod generate;
 pub(crate) mod mesh;
 pub(crate) mod survey;
 pub(crate) mod verify;

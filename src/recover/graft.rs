@@ -85,7 +85,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         self.counts.swallowed += r.swallowed as u64;
         self.counts.displaced += r.displaced.len() as u64;
         self.counts.shims += count_shims(self.mesh, sides, &created);
-        self.register(f, &r.faces);
+        self.recovered(f, &r.faces);
         let polygons = r
             .displaced
             .iter()

@@ -138,6 +138,10 @@ pub struct PolygonCounts {
     pub crossing_tets: u64,
     /// The largest number of crossing tetrahedra of one region.
     pub largest_region: u64,
+    /// Subpolygons that cover the regions: triangles that were missing.
+    pub recovered: u64,
+    /// The largest number of such subpolygons of one region.
+    pub most_recovered: u64,
     /// Cavities: tetrahedra swallowed in expansions.
     pub swallowed: u64,
     /// Cavities: subpolygons of other polygons that an insertion displaced.

@@ -366,12 +366,19 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             return Err((failure, Region { tets }));
         }
         self.counts.shims += count_shims(self.mesh, sides, &tets);
-        self.register(f, &faces);
+        self.recovered(f, &faces);
         Ok(())
     }
 
-    /// Notes the triangles with which an insertion covered f.
-    pub(super) fn register(&mut self, f: usize, faces: &Faces) {
+    /// Notes the triangles with which the insertion of a region covered f.
+    pub(super) fn recovered(&mut self, f: usize, faces: &Faces) {
+        self.counts.recovered += faces.len() as u64;
+        self.counts.most_recovered = self.counts.most_recovered.max(faces.len() as u64);
+        self.register(f, faces);
+    }
+
+    /// Notes triangles of f that are in the mesh.
+    fn register(&mut self, f: usize, faces: &Faces) {
         self.candidates.extend(faces.iter().map(|&t| face(t)));
         self.subpolygons
             .extend(faces.iter().map(|&t| (face(t), f as u32)));

@@ -4,6 +4,7 @@
 mod determinism;
 mod documents;
 mod files;
+mod generate;
 mod input;
 mod place;
 mod refusals;

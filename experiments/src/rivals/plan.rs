@@ -6,6 +6,7 @@ use crate::scene::Slab;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use tetflip::format::{read_plc, write_poly};
+use tetflip::generate::{Kind as Made, generate};
 use tetflip::plc::Plc;
 
 /// What an input is for.
@@ -18,6 +19,8 @@ pub enum Kind {
     },
     /// One polygon through random points.
     Scene,
+    /// A generated model: the whole CDT.
+    Generated,
     /// A model of the user's.
     Model,
 }
@@ -28,6 +31,7 @@ impl Kind {
         match self {
             Kind::Points { .. } => "points",
             Kind::Scene => "scene",
+            Kind::Generated => "generated",
             Kind::Model => "model",
         }
     }
@@ -46,6 +50,7 @@ pub struct Input {
 enum Source {
     Points(Spread, usize),
     Scene(Slab),
+    Generated(Made, usize),
     File(PathBuf),
 }
 
@@ -76,6 +81,7 @@ impl Plan {
         let mut inputs = vec![points(Spread::Cube, MILLION)];
         inputs.extend(Spread::ALL.map(|spread| points(spread, 200_000)));
         inputs.extend([1000, 3000, 10_000, 30_000, 100_000].map(scene));
+        inputs.extend(MADE.map(|(kind, size)| generated(kind, size)));
         Plan { inputs, rounds: 5 }
     }
 
@@ -83,6 +89,7 @@ impl Plan {
     pub fn quick() -> Plan {
         let mut inputs: Vec<Input> = Spread::ALL.map(|spread| points(spread, 2000)).into();
         inputs.extend([300, 1000].map(scene));
+        inputs.extend(MADE.map(|(kind, size)| generated(kind, size / 20)));
         Plan { inputs, rounds: 1 }
     }
 
@@ -121,6 +128,28 @@ fn points(spread: Spread, n: usize) -> Input {
     }
 }
 
+/// CAD-like models, and some with many cospherical or coplanar vertices.
+const MADE: [(Made, usize); 10] = [
+    (Made::Bracket, 4000),
+    (Made::Part, 4000),
+    (Made::Crankcase, 4000),
+    (Made::Maze, 5600),
+    (Made::Cheese, 18_000),
+    (Made::Gear, 5600),
+    (Made::Shaft, 4000),
+    (Made::Terrain, 20_000),
+    (Made::Sponge, 5000),
+    (Made::Sphere, 50_000),
+];
+
+fn generated(kind: Made, size: usize) -> Input {
+    Input {
+        name: format!("{kind}/{size}"),
+        kind: Kind::Generated,
+        source: Source::Generated(kind, size),
+    }
+}
+
 /// The scene of Fig. 8 with about so many crossing tetrahedra.
 fn scene(crossing: u64) -> Input {
     Input {
@@ -142,6 +171,7 @@ impl Input {
                 ..Plc::default()
             },
             Source::Scene(slab) => slab.plc(),
+            Source::Generated(kind, size) => generate(*kind, 1, *size),
             Source::File(path) => read_plc(path)?,
         };
         let path = if plc.facets.is_empty() {

@@ -8,9 +8,12 @@ use crate::rivals::{number_after, processor_seconds, run_limited};
 use crate::sample::rounded;
 use std::error::Error;
 use std::time::Duration;
+use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::delaunay::delaunay;
+use tetflip::generate::generate;
 use tetflip::mesh::VertexId;
 use tetflip::predicate::DoublePoints;
+use tetflip::report::Report;
 
 /// A time for ten million points on a slow machine.
 const LEAST_LIMIT: Duration = Duration::from_secs(600);
@@ -62,6 +65,16 @@ pub fn take_part(word: &str, size: usize) -> Result<(), Box<dyn Error>> {
             let result = delaunay(&points, &all)?;
             println!("seconds: {}", processor_seconds() - start);
             println!("tetrahedra: {}", result.mesh.finite().count());
+        }
+        Work::Surface(kind) => {
+            let plc = generate(kind, 1, size);
+            let mut report = Report::default();
+            let start = processor_seconds();
+            let mesh = tetrahedralize(&plc, &Options::default(), &mut report, &mut |_| ())
+                .map_err(|failure| failure.describe(&plc).to_string())?;
+            println!("seconds: {}", processor_seconds() - start);
+            println!("tetrahedra: {}", mesh.tets.len());
+            println!("steiner: {}", report.steiner_points);
         }
     }
     Ok(())

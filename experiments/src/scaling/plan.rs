@@ -1,22 +1,30 @@
 //! Which sizes.
 
 use crate::rivals::points::Spread;
+use tetflip::generate::Kind;
 
 /// What is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
     /// The Delaunay tetrahedralization of uniform points.
     Points,
+    /// The CDT of a generated surface.
+    Surface(Kind),
 }
 
 impl Work {
     /// All.
-    pub const ALL: [Work; 1] = [Work::Points];
+    pub const ALL: [Work; 3] = [
+        Work::Points,
+        Work::Surface(Kind::Terrain),
+        Work::Surface(Kind::Cells),
+    ];
 
     /// The word of tables.
     pub fn word(self) -> &'static str {
         match self {
             Work::Points => Spread::Cube.word(),
+            Work::Surface(kind) => kind.name(),
         }
     }
 }
