@@ -7,12 +7,14 @@ pub enum Part {
     Figure(&'static str, &'static str),
     /// `NAME.csv`, to be read, and its caption.
     Table(&'static str, &'static str),
+    /// The pictures of a directory, and their caption.
+    Pictures(&'static str, &'static str),
     /// One column of `NAME.csv` by two others.
     Pivot(Pivot),
     /// `NAME.csv`, all rows, to be looked things up in.
     Rows(&'static str, &'static str),
     /// The same, of the rows alone that have this value in this column.
-    Some(&'static str, &'static str, [&'static str; 2]),
+    Chosen(&'static str, &'static str, [&'static str; 2]),
 }
 
 /// One column of a CSV file by two others.
@@ -37,8 +39,9 @@ impl Part {
     pub fn file(self) -> String {
         match self {
             Part::Figure(name, _) => format!("{name}.svg"),
+            Part::Pictures(name, _) => format!("{name}/"),
             Part::Pivot(pivot) => format!("{}.csv", pivot.file),
-            Part::Table(name, _) | Part::Rows(name, _) | Part::Some(name, ..) => {
+            Part::Table(name, _) | Part::Rows(name, _) | Part::Chosen(name, ..) => {
                 format!("{name}.csv")
             }
         }
@@ -56,7 +59,7 @@ pub struct Section {
     pub parts: &'static [Part],
 }
 
-use Part::{Figure, Rows, Some, Table};
+use Part::{Chosen, Figure, Rows, Table};
 
 const NUMBER_TYPES: &[&str] = &[
     "naive", "f32", "f64", "bits:106", "bits:256", "filtered", "exact",
@@ -78,12 +81,20 @@ const SCHOENHARDT: Pivot = Pivot {
 };
 
 /// All sections, in the order of the page.
-pub const SECTIONS: [Section; 9] = [
+pub const SECTIONS: [Section; 11] = [
+    Section {
+        stem: "fig8",
+        title: "The scene (Fig. 8)",
+        parts: &[
+            Figure("fig8", "The tetrahedra that the rectangle crosses."),
+            Figure("fig8-after", "What fills their place after the insertion."),
+            Table("fig8", "What the pictures show."),
+        ],
+    },
     Section {
         stem: "fig9",
         title: "Time by cavity size (Fig. 9)",
         parts: &[
-            Figure("fig8", "The scene, as in the paper’s Fig. 8."),
             Figure("fig9-small", "Small cavities: the paper’s left plot."),
             Figure(
                 "fig9-paper",
@@ -101,6 +112,19 @@ pub const SECTIONS: [Section; 9] = [
             Table("fig9-summary", "Medians by size class and method."),
             Rows("fig9", "All scenes and methods."),
         ],
+    },
+    Section {
+        stem: "table1",
+        title: "CDTs of models (Tables 1 and 2)",
+        parts: &[
+            Table("table1", "All models, the paper’s among them."),
+            Table("table2", "Parts of the time of polygon insertion."),
+        ],
+    },
+    Section {
+        stem: "models",
+        title: "The generated models",
+        parts: &[Part::Pictures("models", "One model of each kind.")],
     },
     Section {
         stem: "growth",
@@ -137,7 +161,7 @@ pub const SECTIONS: [Section; 9] = [
             Part::Pivot(FAILURE_RATE),
             Part::Pivot(SCHOENHARDT),
             Rows("flip_order", "All families and number types."),
-            Some(
+            Chosen(
                 "flip_order-failures",
                 "Runs that failed with times in f64.",
                 ["times", "f64"],
@@ -148,14 +172,6 @@ pub const SECTIONS: [Section; 9] = [
         stem: "failures",
         title: "Failures of the paper’s kind",
         parts: &[Table("failures", "One row per failure.")],
-    },
-    Section {
-        stem: "table1",
-        title: "CDTs of models (Tables 1 and 2)",
-        parts: &[
-            Table("table1", "Ours; the paper’s Table 1 is above."),
-            Table("table2", "Ours; the paper’s Table 2 is above."),
-        ],
     },
     Section {
         stem: "steiner",
@@ -195,7 +211,8 @@ mod tests {
     #[test]
     fn every_experiment_has_a_section_and_every_file_one_place() {
         for e in &ALL {
-            assert!(SECTIONS.iter().any(|s| s.stem == e.name), "{}", e.name);
+            let section = SECTIONS.iter().find(|s| s.stem == e.name);
+            assert!(section.is_some(), "{} has no section", e.name);
         }
         let parts = SECTIONS.iter().flat_map(|s| s.parts);
         let parts = parts.filter(|p| !matches!(p, Part::Pivot(_)));

@@ -38,6 +38,32 @@ impl Files {
         Table::read(text.as_bytes()).map_err(|error| format!("{name}.csv is no CSV: {error}"))
     }
 
+    /// The pictures `NAME.png` of a directory beside the results, by name; an error if there are none.
+    pub fn pictures(&self, directory: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
+        let entries = std::fs::read_dir(self.directory.join(directory));
+        let paths = entries
+            .into_iter()
+            .flatten()
+            .filter_map(|e| Some(e.ok()?.path()));
+        let mut pictures = Vec::new();
+        for path in paths.filter(|p| p.extension().is_some_and(|e| e == "png")) {
+            let name = path
+                .file_stem()
+                .and_then(|n| n.to_str())
+                .unwrap_or_default();
+            let bytes = std::fs::read(&path);
+            let bytes = bytes.map_err(|e| format!("{directory}/{name}.png cannot be read: {e}"))?;
+            pictures.push((name.to_string(), bytes));
+        }
+        if pictures.is_empty() {
+            let what = format!("{directory}/*.png");
+            self.missing.borrow_mut().insert(what.clone());
+            return Err(format!("{what} is missing"));
+        }
+        pictures.sort();
+        Ok(pictures)
+    }
+
     /// What has been asked for and was not there, sorted.
     pub fn missing(&self) -> Vec<String> {
         self.missing.borrow().iter().cloned().collect()

@@ -5,6 +5,7 @@ use super::figure;
 use super::files::Files;
 use super::guide::Guide;
 use super::html::{escape, inline};
+use super::pictures;
 use crate::experiment::ALL;
 use std::fmt::Write;
 
@@ -29,6 +30,15 @@ pub fn html(section: &Section, files: &Files, guide: &Guide) -> String {
             );
         }
     }
+    if guide.paragraph(stem, "Question.").is_none()
+        && let Some(e) = ALL.iter().find(|e| e.name == stem)
+    {
+        let question = escape(e.question);
+        let _ = writeln!(
+            html,
+            "<p class=\"question\"><b>Question</b> <span>{question}</span></p>"
+        );
+    }
     html += &outcome(stem, files);
     let mut figures = String::new();
     let mut tables = String::new();
@@ -38,12 +48,16 @@ pub fn html(section: &Section, files: &Files, guide: &Guide) -> String {
                 Ok(figure) => figures += &figure,
                 Err(missing) => tables += &absent(&missing),
             },
+            Part::Pictures(name, caption) => {
+                let html = pictures::html(files, name, caption);
+                tables += &html.unwrap_or_else(|missing| absent(&missing));
+            }
             Part::Pivot(ref pivot) => tables += &pivoted(files, pivot),
             Part::Table(name, caption) => tables += &table(files, guide, stem, name, caption),
             Part::Rows(name, caption) => {
                 tables += &rows(files, guide, stem, (name, caption), None);
             }
-            Part::Some(name, caption, only) => {
+            Part::Chosen(name, caption, only) => {
                 tables += &rows(files, guide, stem, (name, caption), Some(only));
             }
         }
