@@ -1,8 +1,8 @@
 //! `report.html`: the results, beside the paper's, on one page that needs nothing else: no network, no other file.
 //!
-//! It has every table and plot of a directory of results ([`contents`]), what the README of this package says of them
-//! ([`guide`]), the paper's numbers ([`paper`], [`claims`]), and a viewer in which one can step through insertions flip by
-//! flip, in exact order and with rounded times side by side ([`scenes`]). The page is a function of the files and of these
+//! It has every table and plot of a directory of results (`contents`), what the README of this package says of them
+//! (`guide`), the paper's numbers (`paper`, `claims`), and a viewer in which one can step through insertions flip by
+//! flip, in exact order and with rounded times side by side (`scenes`). The page is a function of the files and of these
 //! sources: the same results give the same bytes. What is missing is named on the page.
 
 mod beside;
