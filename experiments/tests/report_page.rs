@@ -65,6 +65,7 @@ fn the_page_is_well_formed_and_needs_nothing_else() {
         quick.contains("fig9-summary.csv is missing"),
         "what is missing is named"
     );
+    assert!(quick.contains("results are of the quick form"));
     assert!(
         quick.contains("every expectation holds"),
         "the run that has been made"

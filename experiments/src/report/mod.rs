@@ -77,7 +77,7 @@ pub fn page(directory: &Path) -> String {
         .iter()
         .map(|s| format!("<a href=\"#{}\">{}</a>\n", s.stem, escape(s.title)))
         .collect();
-    let missing = missing(&files);
+    let missing = quick(&files) + &missing(&files);
     let programs = PROGRAMS.join("\n");
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -132,6 +132,18 @@ fn paper_section(files: &Files) -> String {
             "The paper’s <strong>Table 2</strong>: proportion of the time of polygon insertion.",
             &paper::TABLE_2
         ),
+    )
+}
+
+/// Says that times mean little, if some are of the quick form.
+fn quick(files: &Files) -> String {
+    let ledger = files.table("RUNS").ok();
+    let is_quick = ledger.is_some_and(|t| t.find(&[("form", "quick")], "form").is_some());
+    if !is_quick {
+        return String::new();
+    }
+    absent(
+        "Some of these results are of the quick form, whose times and ratios of times mean little",
     )
 }
 
