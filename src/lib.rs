@@ -32,6 +32,8 @@ pub mod check;
 pub mod delaunay;
 pub mod error;
 pub mod format;
+#[allow(unsafe_code)]
+mod machine;
 pub mod mesh;
 pub mod number;
 pub mod plc;
