@@ -140,3 +140,36 @@ fn fill_large(mesh: &mut TetMesh, p: VertexId, boundary: &[BoundaryFacet], new: 
         mesh.set_twin(facet.outside, t.corner(0));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::delaunay;
+    use crate::predicate::DoublePoints;
+
+    /// The centre of a sphere full of vertices: more of them around its cavity than the table has rows.
+    #[test]
+    fn fills_a_cavity_of_many_vertices() {
+        let n = 4 * ROWS;
+        let spiral = (0..n).map(|i| {
+            let z = 1.0 - (2 * i + 1) as f64 / n as f64;
+            let (sin, cos) = (2.4 * i as f64).sin_cos();
+            let r = (1.0 - z * z).sqrt();
+            [r * cos, r * sin, z]
+        });
+        let points = DoublePoints::new(spiral.chain([[0.0; 3]]).collect());
+        let all: Vec<VertexId> = (0..=n).map(VertexId::new).collect();
+        let mut grown = delaunay(&points, &all[..n]).expect("not on one plane");
+        grown.insert(&points, all[n]);
+        assert!(grown.created().len() > 2 * ROWS);
+        assert_eq!(grown.mesh.check(), Ok(()));
+        let expected = delaunay(&points, &all).expect("not on one plane");
+        let canonical = |mesh: &TetMesh| {
+            let mut tets: Vec<[VertexId; 4]> = mesh.all().map(|t| mesh.vertices(t)).collect();
+            tets.iter_mut().for_each(|v| v.sort_unstable());
+            tets.sort_unstable();
+            tets
+        };
+        assert_eq!(canonical(&grown.mesh), canonical(&expected.mesh));
+    }
+}

@@ -395,6 +395,15 @@ mod tests {
             let s = formula::insphere(exact.each_ref()).exact_sign();
             prop_assert_eq!(store.insphere_unperturbed(v), s);
             prop_assert_eq!(store.insphere_exact::<false>(v), s);
+            let behind = |slot: usize| {
+                let mut moved = [a, b, c, d];
+                moved[slot] = v[4];
+                store.orient3d(moved).is_negative()
+            };
+            match store.facet_towards([a, b, c, d], v[4]) {
+                Some(slot) => prop_assert!(behind(slot)),
+                None => prop_assert!(!(0..4).any(behind)),
+            }
         }
 
         /// The same with exact points on segments, also for points of one line or plane.
