@@ -291,27 +291,28 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         let facets = || self.complex.polygons[f].facets.clone();
         for segment in region.crossing_edges(self.mesh, sides) {
             let [a, b] = segment;
-            if self.subsegments.segment_of(a, b).is_some() {
+            if let Some(s) = self.subsegments.segment_of(a, b) {
                 return Err(if certain(&segment) {
                     let facets = facets();
                     InvalidPlc::SegmentThroughPolygon { facets, segment }.into()
                 } else {
-                    self.not_flat(f, NotFlatReason::Crossed)
+                    let segment = self.complex.segments[s as usize].ends;
+                    self.not_flat(f, NotFlatReason::CrossedBySegment { segment })
                 });
             }
         }
         for c in region.crossing_triangles(self.mesh, sides) {
             let facet = self.mesh.facet(c);
             if let Some(&other) = self.subpolygons.get(&face(facet)) {
+                let second = self.complex.polygons[other as usize].facets.clone();
                 return Err(if certain(&facet) {
-                    let second = self.complex.polygons[other as usize].facets.clone();
                     InvalidPlc::PolygonsIntersect {
                         first: facets(),
                         second,
                     }
                     .into()
                 } else {
-                    self.not_flat(f, NotFlatReason::Crossed)
+                    self.not_flat(f, NotFlatReason::CrossedByPolygon { facets: second })
                 });
             }
         }
