@@ -12,6 +12,7 @@ mod fig9;
 mod flip_order;
 mod growth;
 mod lint;
+mod machine;
 mod macros;
 mod number;
 mod optional;
@@ -63,6 +64,7 @@ impl Builder {
 /// If a file, a column or a row is missing.
 pub fn generate(results: &Path) -> Result<Generated, PaperError> {
     let mut builder = Builder::default();
+    machine::add(&mut builder, results)?;
     fig9::add(&mut builder, results)?;
     flip_order::add(&mut builder, results)?;
     cost::add(&mut builder, results)?;
@@ -158,6 +160,13 @@ mod tests {
     fn a_missing_file_is_named() {
         let empty = tempfile::tempdir().expect("a directory");
         let error = generate(empty.path()).expect_err("no results");
+        assert!(error.to_string().starts_with("MACHINE.txt"), "{error}");
+        std::fs::write(
+            empty.path().join("MACHINE.txt"),
+            "cpu: a\ncores: 1\nrustc: b\n",
+        )
+        .expect("written");
+        let error = generate(empty.path()).expect_err("no results");
         assert!(error.to_string().starts_with("fig9"), "{error}");
     }
 
@@ -192,7 +201,7 @@ mod tests {
         let generated = generate(&results()).expect("complete results");
         let numbers = &generated.files["numbers.tex"];
         let optional = ["Rivals", "Scaling", "Steiner"];
-        let needed = ["FigNine", "Order", "Case", "Cost", "Growth"];
+        let needed = ["Machine", "FigNine", "Order", "Case", "Cost", "Growth"];
         let (mut files, mut commands) = (0, 0);
         for (path, text) in sources() {
             let tables = words(&text, "\\fitted{").map(|name| format!("{name}.tex"));
