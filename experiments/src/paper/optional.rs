@@ -32,7 +32,18 @@ const HOOKS: [Hook; 3] = [
     Hook {
         stem: "failures",
         switch: "Failures",
-        columns: &[],
+        columns: &[
+            ("input", "input"),
+            ("times", "times"),
+            ("vertices", "vertices"),
+            ("crossing_tets", "crossing"),
+            ("events", "events"),
+            ("left", "left"),
+            ("class", "what is left"),
+            ("piece_tets", "its tetrahedra"),
+            ("piece_vertices", "its vertices"),
+            ("exact_succeeds", "exact order succeeds"),
+        ],
         turned: false,
     },
 ];
