@@ -3,7 +3,7 @@
 use super::Builder;
 use super::number::{ratio, significant, whole};
 use super::source::{PaperError, Row, Sheet};
-use super::table::{Table, escaped, not_measured, of_sheet};
+use super::table::{Table, cell, escaped, not_measured, of_sheet};
 use std::path::Path;
 
 /// A CSV that becomes a table as it is: the paper has `\input{generated/STEM-table}` and the switch `\ifSWITCH`.
@@ -201,17 +201,12 @@ fn targets(_: &mut Builder, sheet: &Sheet) -> Result<String, PaperError> {
     let heads = ["quantity", "inputs", "target", "measured", "reached"];
     let mut table = Table::new("@{}p{0.6\\linewidth}rrrr@{}", &heads);
     for row in sheet.all() {
-        let reached = if row.text("reached")? == "true" {
-            "yes"
-        } else {
-            "no"
-        };
         table.row(&[
             escaped(row.text("what")?),
             whole(row.number("inputs")?),
             ratio(row.number("bound")?),
             ratio(row.number("measured")?),
-            reached.to_string(),
+            cell(row.text("reached")?),
         ]);
     }
     Ok(table.into_text("rivals-targets.csv"))

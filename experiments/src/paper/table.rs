@@ -56,9 +56,11 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A cell as it is, but numbers with thin spaces and no more than four significant digits after a point.
+/// A cell as it is, but fractions with three significant digits, whole numbers with thin spaces, and `yes` or `no`.
 pub fn cell(text: &str) -> String {
     match text.parse::<f64>() {
+        _ if text == "true" => "yes".to_string(),
+        _ if text == "false" => "no".to_string(),
         Ok(x) if x.is_finite() && text.contains(['.', 'e']) => number::significant(x, 3),
         Ok(x) if x.is_finite() => number::whole(x),
         _ if text.is_empty() => "--".to_string(),
@@ -124,15 +126,15 @@ mod tests {
     use super::*;
 
     fn sheet() -> Sheet {
-        let text = "model,n_tets,seconds,commit\na_b,1234,0.123456,c\nx,5,,c\n";
+        let text = "model,n_tets,seconds,ok,commit\na_b,1234,0.123456,true,c\nx,5,,false,c\n";
         Sheet::parse("t.csv", text).expect("a CSV")
     }
 
     #[test]
     fn any_csv_is_a_table() {
         let text = of_sheet(&sheet(), &[], false).expect("all columns");
-        let expected = "% t.csv\n\\begin{tabular}{@{}lrr@{}}\\toprule\nmodel & n tets & seconds \\\\\n\\midrule\n\
-            a\\_b & 1\\,234 & 0.123 \\\\\nx & 5 & -- \\\\\n\\bottomrule\n\\end{tabular}\n";
+        let expected = "% t.csv\n\\begin{tabular}{@{}lrrr@{}}\\toprule\nmodel & n tets & seconds & ok \\\\\n\\midrule\n\
+            a\\_b & 1\\,234 & 0.123 & yes \\\\\nx & 5 & -- & no \\\\\n\\bottomrule\n\\end{tabular}\n";
         assert_eq!(text, expected);
     }
 
