@@ -60,31 +60,52 @@ pub fn add(builder: &mut Builder, results: &Path) -> Result<(), PaperError> {
         let file = format!("{}.csv", hook.stem);
         builder.macros.switch(hook.switch, sheet.is_some(), &file);
     }
-    optional(builder, results, "rivals", "Rivals", rivals)?;
-    optional(builder, results, "rivals-targets", "RivalsTargets", targets)?;
-    optional(builder, results, "scaling", "Scaling", scaling)?;
+    let compared = |column: &'static str| {
+        move |sheet: &Sheet| Ok::<_, PaperError>(sheet.values(column)?.len() > 1)
+    };
+    let always = |_: &Sheet| Ok(true);
     optional(
         builder,
         results,
-        "steiner-summary",
-        "SteinerSummary",
+        ("rivals", "Rivals"),
+        compared("program"),
+        rivals,
+    )?;
+    optional(
+        builder,
+        results,
+        ("rivals-targets", "RivalsTargets"),
+        always,
+        targets,
+    )?;
+    optional(builder, results, ("scaling", "Scaling"), always, scaling)?;
+    let summary = ("steiner-summary", "SteinerSummary");
+    optional(
+        builder,
+        results,
+        summary,
+        compared("method"),
         steiner_summary,
     )?;
-    optional(builder, results, "steiner", "Steiner", steiner)
+    optional(builder, results, ("steiner", "Steiner"), always, steiner)
 }
 
 /// What makes a table of a sheet, and may define commands and add files.
 type Make = fn(&mut Builder, &Sheet) -> Result<String, PaperError>;
 
+/// A table of a file, if it is there and `wanted`.
 fn optional(
     builder: &mut Builder,
     results: &Path,
-    stem: &str,
-    switch: &str,
+    (stem, switch): (&str, &str),
+    wanted: impl Fn(&Sheet) -> Result<bool, PaperError>,
     make: Make,
 ) -> Result<(), PaperError> {
     let file = format!("{stem}.csv");
-    let sheet = Sheet::read_optional(results, stem)?;
+    let sheet = match Sheet::read_optional(results, stem)? {
+        Some(sheet) if wanted(&sheet)? => Some(sheet),
+        _ => None,
+    };
     builder.macros.switch(switch, sheet.is_some(), &file);
     let text = match &sheet {
         Some(sheet) => make(builder, sheet)?,
@@ -184,7 +205,8 @@ fn rivals(builder: &mut Builder, sheet: &Sheet) -> Result<String, PaperError> {
         .range("RivalsVerification", &verification, ratio, source);
     let versions = |program: &str| {
         let rows = sheet.rows(&[("program", program)])?;
-        rows.first().map_or(Ok("--"), |r| r.text("version"))
+        rows.first()
+            .map_or(Ok("not installed"), |r| r.text("version"))
     };
     for (name, program) in [("TetGen", "tetgen"), ("HXT", "hxt")] {
         let version = escaped(versions(program)?);
@@ -370,6 +392,17 @@ mod tests {
             numbers.contains("\\newcommand{\\RivalsTetGenVersion}{1.5}"),
             "{numbers}"
         );
+    }
+
+    #[test]
+    fn alone_nothing_is_compared() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let alone = "input,program\nuniform/9,tetflip\n";
+        std::fs::write(directory.path().join("rivals.csv"), alone).expect("written");
+        let mut builder = Builder::default();
+        add(&mut builder, directory.path()).expect("complete");
+        assert!(builder.generated.files["rivals-table.tex"].contains("Not measured"));
+        assert!(builder.macros.into_text().contains("\\Rivalsfalse"));
     }
 
     #[test]
