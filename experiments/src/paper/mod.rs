@@ -2,8 +2,8 @@
 //! the results.
 //!
 //! `experiments paper` writes them to `paper/generated`; `--check` compares instead. A file or a row that is missing is an
-//! error that names it, except for the experiments that need other programs or hours ([`optional`]): in their place the
-//! paper says that they have not been run. Sentences that numbers could contradict are [`claims`]. The same results give the
+//! error that names it, except for the experiments that need other programs or hours (`optional`): in their place the
+//! paper says that they have not been run. Sentences that numbers could contradict are claims (`claims`). The same results give the
 //! same bytes.
 
 mod claims;
