@@ -115,7 +115,7 @@ fn ranges(builder: &mut Builder, summary: &Sheet) -> Result<(), PaperError> {
                 &values,
                 print,
                 &source(method, column),
-            );
+            )?;
             Ok::<_, PaperError>(())
         };
         range(
@@ -143,7 +143,7 @@ fn ranges(builder: &mut Builder, summary: &Sheet) -> Result<(), PaperError> {
         &wraps?,
         ratio,
         "exactness_cost-summary.csv: method=gift-wrap; ratio_to_cavity",
-    );
+    )?;
     let mut rational = Vec::new();
     for row in summary.rows(&[("method", "flip rational")])? {
         rational.push(row.number("ratio_to_f64")?);
@@ -154,7 +154,7 @@ fn ranges(builder: &mut Builder, summary: &Sheet) -> Result<(), PaperError> {
             &rational,
             ratio,
             "exactness_cost-summary.csv: method=flip rational; ratio_to_f64",
-        );
+        )?;
     }
     let mut fast = Vec::new();
     for row in summary.rows(&[("input", "sphere"), ("method", "flip filtered")])? {

@@ -104,7 +104,7 @@ fn ratios(builder: &mut Builder, summary: &Sheet) -> Result<(), PaperError> {
     let all = "all classes of fig9-summary.csv";
     let mut range = |name: &str, rows: &[Row], method: &str, column: &str| {
         let values = numbers(rows, column)?;
-        m.range(name, &values, ratio, &format!("{all}: {method}; {column}"));
+        m.range(name, &values, ratio, &format!("{all}: {method}; {column}"))?;
         Ok::<_, PaperError>(values)
     };
     range(
@@ -146,7 +146,7 @@ fn ratios(builder: &mut Builder, summary: &Sheet) -> Result<(), PaperError> {
     let over_filtered: Vec<f64> = numbers(&filtered, "ratio_to_exact")?;
     let over_filtered: Vec<f64> = over_filtered.iter().map(|r| 1.0 / r).collect();
     let source = format!("{all}: flip filtered; 1/ratio_to_exact");
-    m.range("FigNineExactOverFiltered", &over_filtered, ratio, &source);
+    m.range("FigNineExactOverFiltered", &over_filtered, ratio, &source)?;
     for (name, at) in [("Small", 0), ("Large", filtered.len() - 1)] {
         let from = filtered[at].text("crossing_from")?;
         for (method, rows) in [("Filtered", &filtered), ("Floats", &float)] {
@@ -204,7 +204,7 @@ fn counts(builder: &mut Builder, scenes: &Sheet) -> Result<(), PaperError> {
         &sizes,
         whole,
         "fig9.csv: cavity; crossing_tets",
-    );
+    )?;
     let half_height = cavity
         .iter()
         .map(|r| r.text("half_height"))

@@ -313,7 +313,7 @@ fn samples(builder: &mut Builder, sheet: &Sheet) -> Result<(), PaperError> {
         &bits,
         whole,
         "flip_order.csv: times=bits:N",
-    );
+    )?;
     Ok(())
 }
 

@@ -40,7 +40,7 @@ pub fn add(builder: &mut Builder, results: &Path) -> Result<(), PaperError> {
             &per_tet,
             |x| significant(x, 2),
             &format!("growth.csv: method={method}; microseconds_per_tet"),
-        );
+        )?;
         let fit = summary.rows(&[("method", method)])?;
         // The first row of a method is the fit through all sizes.
         let fit = match fit.first() {
@@ -65,7 +65,7 @@ pub fn add(builder: &mut Builder, results: &Path) -> Result<(), PaperError> {
             &sizes,
             whole,
             "growth.csv: flip filtered; crossing_tets",
-        );
+        )?;
         let (mut comparisons, mut exact) = (Vec::new(), Vec::new());
         for row in &rows {
             let (n, c) = (row.number("crossing_tets")?, row.number("comparisons")?);
@@ -77,13 +77,13 @@ pub fn add(builder: &mut Builder, results: &Path) -> Result<(), PaperError> {
             &comparisons,
             |x| significant(x, 2),
             "growth.csv: flip filtered; comparisons / (n log2 n), n = crossing_tets",
-        );
+        )?;
         m.range(
             "GrowthComparedExactly",
             &exact,
             percent,
             "growth.csv: flip filtered; compared_exactly / comparisons, percent",
-        );
+        )?;
         let (last, first) = (sizes.len() - 1, 0);
         m.ratio(
             "GrowthPerTetRatio",

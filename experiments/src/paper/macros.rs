@@ -1,6 +1,7 @@
 //! `numbers.tex`: one `\newcommand` for each number of the text, with its source.
 
 use super::number;
+use super::source::PaperError;
 use std::collections::BTreeSet;
 
 /// The commands so far.
@@ -46,20 +47,30 @@ impl Macros {
     }
 
     /// The least and the greatest of some numbers, as `NAMELeast` and `NAMEMost`.
-    pub fn range(&mut self, name: &str, values: &[f64], print: fn(f64) -> String, source: &str) {
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn range(
+        &mut self,
+        name: &str,
+        values: &[f64],
+        print: fn(f64) -> String,
+        source: &str,
+    ) -> Result<(), PaperError> {
         let least = values.iter().copied().min_by(f64::total_cmp);
         let most = values.iter().copied().max_by(f64::total_cmp);
-        let print = |x: Option<f64>| print(x.expect("a range of something"));
-        self.define(
-            &format!("{name}Least"),
-            &print(least),
-            &format!("{source}; the least"),
+        let (Some(least), Some(most)) = (least, most) else {
+            return Err(PaperError::NoRows {
+                wanted: source.to_string(),
+            });
+        };
+        let (least_source, most_source) = (
+            format!("{source}; the least"),
+            format!("{source}; the greatest"),
         );
-        self.define(
-            &format!("{name}Most"),
-            &print(most),
-            &format!("{source}; the greatest"),
-        );
+        self.define(&format!("{name}Least"), &print(least), &least_source);
+        self.define(&format!("{name}Most"), &print(most), &most_source);
+        Ok(())
     }
 
     /// `\ifNAME`: whether an optional experiment has been run.
@@ -87,7 +98,12 @@ mod tests {
         let mut macros = Macros::default();
         macros.ratio("A", 0.5, "a.csv: x=1; y");
         macros.percent("B", 0.25, "b.csv");
-        macros.range("C", &[3.0, 1.0, 2.0], number::whole, "c.csv: y");
+        let range = macros.range("C", &[3.0, 1.0, 2.0], number::whole, "c.csv: y");
+        range.expect("three numbers");
+        let none = macros
+            .range("E", &[], number::whole, "e.csv: x=1; y")
+            .expect_err("no numbers");
+        assert_eq!(none.to_string(), "no rows: e.csv: x=1; y");
         macros.switch("D", false, "d.csv");
         let expected = "% a.csv: x=1; y\n\\newcommand{\\A}{0.50}\n\
             % b.csv\n\\newcommand{\\B}{25.0\\,\\%}\n\

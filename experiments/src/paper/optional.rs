@@ -197,12 +197,13 @@ fn rivals(builder: &mut Builder, sheet: &Sheet) -> Result<String, PaperError> {
         }
     }
     let source = "rivals.csv: verification_over_construction";
+    let m = &mut builder.macros;
     if verification.is_empty() {
-        verification.push(f64::NAN);
+        m.define("RivalsVerificationLeast", "--", source);
+        m.define("RivalsVerificationMost", "--", source);
+    } else {
+        m.range("RivalsVerification", &verification, ratio, source)?;
     }
-    builder
-        .macros
-        .range("RivalsVerification", &verification, ratio, source);
     let versions = |program: &str| {
         let rows = sheet.rows(&[("program", program)])?;
         rows.first()
@@ -276,8 +277,8 @@ fn scaling(builder: &mut Builder, sheet: &Sheet) -> Result<String, PaperError> {
             &each,
             |x| significant(x, 2),
             "scaling.csv: microseconds_each",
-        );
-        m.range("ScalingSizes", &sizes, whole, "scaling.csv: size");
+        )?;
+        m.range("ScalingSizes", &sizes, whole, "scaling.csv: size")?;
     }
     builder.file("scaling.dat", points);
     Ok(table.into_text("scaling.csv"))

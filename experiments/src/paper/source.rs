@@ -32,6 +32,12 @@ pub enum PaperError {
         /// How many there are.
         found: usize,
     },
+    /// A range of values of no rows.
+    #[error("no rows: {wanted}")]
+    NoRows {
+        /// The file, its rows and columns.
+        wanted: String,
+    },
     /// A file has no such column.
     #[error("{file}: no column `{column}`")]
     NoColumn {
