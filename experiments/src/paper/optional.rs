@@ -4,6 +4,7 @@ use super::Builder;
 use super::number::{ratio, significant, whole};
 use super::source::{PaperError, Row, Sheet};
 use super::table::{Table, cell, escaped, not_measured, of_sheet};
+use super::table1;
 use std::path::Path;
 
 /// A CSV that becomes a table as it is: the paper has `\input{generated/STEM-table}` and the switch `\ifSWITCH`.
@@ -16,13 +17,7 @@ struct Hook {
     turned: bool,
 }
 
-const HOOKS: [Hook; 3] = [
-    Hook {
-        stem: "table1",
-        switch: "TableOne",
-        columns: &[],
-        turned: true,
-    },
+const HOOKS: [Hook; 2] = [
     Hook {
         stem: "table2",
         switch: "TableTwo",
@@ -64,6 +59,13 @@ pub fn add(builder: &mut Builder, results: &Path) -> Result<(), PaperError> {
         move |sheet: &Sheet| Ok::<_, PaperError>(sheet.values(column)?.len() > 1)
     };
     let always = |_: &Sheet| Ok(true);
+    optional(
+        builder,
+        results,
+        ("table1", "TableOne"),
+        always,
+        table1::add,
+    )?;
     optional(
         builder,
         results,
@@ -246,9 +248,7 @@ fn scaling(builder: &mut Builder, sheet: &Sheet) -> Result<String, PaperError> {
         "bytes per tetrahedron",
     ];
     let mut table = Table::new("@{}lrrrrrr@{}", &heads);
-    let mut points = "% scaling.csv: size, seconds\nn s\n".to_string();
-    let mut each = Vec::new();
-    let mut sizes = Vec::new();
+    let mut plot = "% scaling.csv: size, seconds\n".to_string();
     for row in sheet.all() {
         let outcome = row.text("outcome")?;
         table.row(&[
@@ -264,23 +264,35 @@ fn scaling(builder: &mut Builder, sheet: &Sheet) -> Result<String, PaperError> {
             count(&row, "peak_mebibytes")?,
             count(&row, "bytes_per_tetrahedron")?,
         ]);
-        if outcome == "ok" {
-            points += &format!("{} {:.4e}\n", row.text("size")?, row.number("seconds")?);
+    }
+    for input in sheet.values("input")? {
+        let mut points = String::new();
+        let (mut each, mut sizes) = (Vec::new(), Vec::new());
+        for row in sheet.rows(&[("input", input), ("outcome", "ok")])? {
+            points += &format!(" ({},{:.4e})", row.text("size")?, row.number("seconds")?);
             each.push(row.number("microseconds_each")?);
             sizes.push(row.number("size")?);
         }
+        if each.is_empty() {
+            continue;
+        }
+        plot += &format!(
+            "\\addplot coordinates {{{points} }};\n\\addlegendentry{{{}}}\n",
+            escaped(input)
+        );
+        if input == "uniform" {
+            let m = &mut builder.macros;
+            let source = format!("scaling.csv: input={input}, outcome=ok");
+            m.range(
+                "ScalingEach",
+                &each,
+                |x| significant(x, 2),
+                &format!("{source}; microseconds_each"),
+            )?;
+            m.range("ScalingSizes", &sizes, whole, &format!("{source}; size"))?;
+        }
     }
-    let m = &mut builder.macros;
-    if !each.is_empty() {
-        m.range(
-            "ScalingEach",
-            &each,
-            |x| significant(x, 2),
-            "scaling.csv: microseconds_each",
-        )?;
-        m.range("ScalingSizes", &sizes, whole, "scaling.csv: size")?;
-    }
-    builder.file("scaling.dat", points);
+    builder.file("scaling-plot.tex", plot);
     Ok(table.into_text("scaling.csv"))
 }
 
@@ -409,13 +421,13 @@ mod tests {
     #[test]
     fn hooks_take_any_columns() {
         let directory = tempfile::tempdir().expect("a directory");
-        let table = "model,vertices,commit\nA,12345,x\n";
-        std::fs::write(directory.path().join("table1.csv"), table).expect("written");
+        let table = "task,A,commit\nDelaunay,12345,x\n";
+        std::fs::write(directory.path().join("table2.csv"), table).expect("written");
         let mut builder = Builder::default();
         add(&mut builder, directory.path()).expect("complete");
-        let text = &builder.generated.files["table1-table.tex"];
+        let text = &builder.generated.files["table2-table.tex"];
         assert!(
-            text.contains("model & A \\\\\n\\midrule\nvertices & 12\\,345 \\\\"),
+            text.contains("task & Delaunay \\\\\n\\midrule\nA & 12\\,345 \\\\"),
             "{text}"
         );
     }
