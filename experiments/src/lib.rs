@@ -18,6 +18,7 @@ pub mod paper;
 pub mod picture;
 pub mod plot;
 pub mod record;
+pub mod report;
 pub mod rivals;
 pub mod sample;
 pub mod scaling;

@@ -11,7 +11,7 @@ use tetflip_experiments::family::Member;
 use tetflip_experiments::ledger::{Entry, Ledger};
 use tetflip_experiments::record::{Machine, Results};
 use tetflip_experiments::steiner::rival::Rival;
-use tetflip_experiments::{flip_order, paper, rivals, scaling};
+use tetflip_experiments::{flip_order, paper, report, rivals, scaling};
 
 /// The experiments of tetflip: CSV files and plots in results/.
 ///
@@ -51,6 +51,15 @@ enum Verb {
         /// Writes nothing, and fails if there is anything to write.
         #[arg(long)]
         check: bool,
+    },
+    /// Makes a page of results, `report.html`; running all experiments ends with it.
+    Report {
+        /// The results.
+        #[arg(long, value_name = "DIR", default_value = "results")]
+        results: PathBuf,
+        /// The page. [default: report.html beside the results]
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
     },
     /// This library as one of the programs that the experiment `rivals` runs.
     #[command(hide = true)]
@@ -123,6 +132,7 @@ fn main() -> ExitCode {
             output,
             check,
         }) => write_paper(&results, &output, check),
+        Some(Verb::Report { results, output }) => make_report(&results, output),
         Some(Verb::Contestant { what, input }) => rivals::take_part(&what, &input).map(|()| true),
         Some(Verb::Scale { what, size }) => scaling::take_part(&what, size).map(|()| true),
         Some(Verb::Limited {
@@ -179,6 +189,12 @@ fn write_paper(results: &Path, output: &Path, check: bool) -> Result<bool, Box<d
         good = false;
     }
     Ok(good)
+}
+
+fn make_report(results: &Path, output: Option<PathBuf>) -> Result<bool, Box<dyn Error>> {
+    let path = report::write(results, output)?;
+    println!("{}", path.display());
+    Ok(true)
 }
 
 impl Arguments {
@@ -245,6 +261,7 @@ fn run_all(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         ledger.record(&results, entry)?;
     }
     println!("results are in {}", results.directory().display());
+    make_report(results.directory(), None)?;
     if !bad.is_empty() {
         println!("not as expected: {}", bad.join(", "));
     }
