@@ -13,8 +13,9 @@ use crate::plc::{Complex, Plc, PlcError};
 use crate::predicate::{DoublePoints, PointStore, Steiner};
 use crate::recover::cavity::face;
 use crate::recover::deletion::{DeletionCounts, PolygonDeletion};
-use crate::recover::domain::{DomainMarks, keeps_edge, mark_domain};
+use crate::recover::domain::{keeps_edge, mark_domain};
 use crate::recover::embedding::check_embedding;
+use crate::recover::flatten::shims::Repair;
 use crate::recover::flatten::{Pieces, flatten};
 use crate::recover::flips::Watch;
 use crate::recover::polygons::{
@@ -23,6 +24,7 @@ use crate::recover::polygons::{
 use crate::recover::rounding::round;
 use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 use crate::report::{Phase, Report};
+use std::borrow::Cow;
 
 /// What the user chooses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -377,11 +379,22 @@ impl Cdt<DoublePoints> {
                 &self.subpolygons,
                 keep_hull,
             )?;
-            let mut tets: Vec<([VertexId; 4], TetId)> = self
-                .mesh
+            let mut repair = Repair {
+                points: &self.points,
+                mesh: Cow::Borrowed(&self.mesh),
+                incidence: Cow::Borrowed(&self.incidence),
+                subpolygons: Cow::Borrowed(&self.subpolygons),
+                marks,
+                pieces: &self.pieces,
+                subsegments: &self.subsegments,
+                index: &self.index,
+            };
+            report.flattening.shims = repair.run(!keep_hull);
+            let (mesh, marks) = (&*repair.mesh, &repair.marks);
+            let mut tets: Vec<([VertexId; 4], TetId)> = mesh
                 .finite()
                 .filter(|t| marks.kept[t.index()])
-                .map(|t| (canonical(self.mesh.vertices(t)), t))
+                .map(|t| (canonical(mesh.vertices(t)), t))
                 .collect();
             if tets.is_empty() {
                 return Err(GaveUp::NothingInside.into());
@@ -400,12 +413,11 @@ impl Cdt<DoublePoints> {
                 } else {
                     tets.iter().map(|(_, t)| marks.region[t.index()]).collect()
                 },
-                faces: self.faces(&marks),
-                edges: self.edges(&marks),
+                faces: self.faces(&repair),
+                edges: self.edges(&repair),
                 tets: vertices,
             };
             report.output_tets = mesh.tets.len();
-            report.flattening.shims = self.pieces.count_shims(mesh.tets.iter().copied());
             report.output_faces = mesh.faces.len();
             Ok(mesh)
         })
@@ -426,17 +438,18 @@ impl Cdt<DoublePoints> {
     }
 
     /// The subpolygons of the domain with their markers, and the faces of its boundary.
-    fn faces(&self, marks: &DomainMarks) -> Vec<ExportedFace> {
+    fn faces(&self, written: &Repair<DoublePoints>) -> Vec<ExportedFace> {
+        let (mesh, marks) = (&*written.mesh, &written.marks);
         let mut faces = Vec::new();
-        for t in self.mesh.finite().filter(|t| marks.kept[t.index()]) {
+        for t in mesh.finite().filter(|t| marks.kept[t.index()]) {
             for c in (0..4).map(|slot| t.corner(slot)) {
-                let n = self.mesh.neighbor(c);
-                let boundary = self.mesh.is_ghost(n) || !marks.kept[n.index()];
+                let n = mesh.neighbor(c);
+                let boundary = mesh.is_ghost(n) || !marks.kept[n.index()];
                 if !boundary && n < t {
                     continue;
                 }
-                let vertices = face(self.mesh.facet(c));
-                let polygon = self.subpolygons.get(&vertices);
+                let vertices = face(mesh.facet(c));
+                let polygon = written.subpolygons.get(&vertices);
                 if polygon.is_some() || boundary {
                     let marker =
                         polygon.map_or(0, |&f| self.pieces.complex.polygons[f as usize].marker);
@@ -449,15 +462,20 @@ impl Cdt<DoublePoints> {
     }
 
     /// The subsegments of the domain with their markers.
-    fn edges(&self, marks: &DomainMarks) -> Vec<ExportedEdge> {
+    fn edges(&self, written: &Repair<DoublePoints>) -> Vec<ExportedEdge> {
         let mut edges = Vec::new();
         let given = self.complex.segments.len() - self.complex.diagonals;
         for (s, segment) in self.complex.segments[..given].iter().enumerate() {
             let chain: Vec<VertexId> = self.subsegments.chain(s as u32).collect();
-            for w in chain
-                .windows(2)
-                .filter(|w| keeps_edge(&self.mesh, &self.incidence, marks, w[0], w[1]))
-            {
+            for w in chain.windows(2).filter(|w| {
+                keeps_edge(
+                    &written.mesh,
+                    &written.incidence,
+                    &written.marks,
+                    w[0],
+                    w[1],
+                )
+            }) {
                 let mut vertices = [w[0], w[1]];
                 vertices.sort_unstable();
                 edges.push(ExportedEdge {

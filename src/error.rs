@@ -127,6 +127,15 @@ impl Failure {
                     edge(b)
                 ),
                 GaveUp::NotFlat { facets: f, reason } => {
+                    let reason = match reason {
+                        NotFlatReason::CrossedBySegment { segment } => {
+                            format!("segment {} crosses it after rounding", edge(segment))
+                        }
+                        NotFlatReason::CrossedByPolygon { facets: other } => {
+                            format!("it crosses another one after rounding ({})", facets(other))
+                        }
+                        _ => reason.to_string(),
+                    };
                     format!("gave up: polygon not exactly flat, {reason}: {}", facets(f))
                 }
                 GaveUp::Stuck {
@@ -349,7 +358,7 @@ pub enum GaveUp {
 }
 
 /// What stopped the insertion of a polygon that is flat only to rounding.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NotFlatReason {
     /// The mesh does not tell on which side of an edge the polygon lies.
     #[error("its sides are ambiguous at an edge")]
@@ -358,9 +367,18 @@ pub enum NotFlatReason {
     /// (paper, Fig. 4).
     #[error("its two sides need incompatible triangulations")]
     Incompatible,
-    /// Something crosses it that crosses only because of rounding.
-    #[error("a constraint crosses it after rounding")]
-    Crossed,
+    /// A segment crosses it, because of rounding only.
+    #[error("the segment {segment:?} crosses it after rounding")]
+    CrossedBySegment {
+        /// The ends of the segment.
+        segment: [VertexId; 2],
+    },
+    /// It crosses another polygon, because of rounding only.
+    #[error("it crosses the polygon made of facets {facets:?} after rounding")]
+    CrossedByPolygon {
+        /// The facets of the other polygon.
+        facets: Vec<usize>,
+    },
 }
 
 /// Why a polygon was not deleted. The mesh has the tetrahedra that it had.

@@ -33,6 +33,8 @@ pub mod delaunay;
 pub mod error;
 pub mod format;
 pub mod generate;
+#[allow(unsafe_code)]
+mod machine;
 pub mod mesh;
 pub mod number;
 pub mod plc;

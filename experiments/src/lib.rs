@@ -14,6 +14,7 @@ pub mod method;
 pub mod models;
 pub mod order;
 pub mod outcome;
+pub mod paper;
 pub mod picture;
 pub mod plot;
 pub mod record;

@@ -11,7 +11,7 @@ use tetflip_experiments::family::Member;
 use tetflip_experiments::ledger::{Entry, Ledger};
 use tetflip_experiments::record::{Machine, Results};
 use tetflip_experiments::steiner::rival::Rival;
-use tetflip_experiments::{flip_order, report, rivals, scaling};
+use tetflip_experiments::{flip_order, paper, report, rivals, scaling};
 
 /// The experiments of tetflip: CSV files and plots in results/.
 ///
@@ -39,6 +39,18 @@ enum Verb {
         /// Writes the PLC to this file, too.
         #[arg(long, value_name = "FILE.poly")]
         write: Option<PathBuf>,
+    },
+    /// Writes the tables, plots and numbers of the paper, all from the CSV files of the results.
+    Paper {
+        /// The results.
+        #[arg(long, value_name = "DIR", default_value = "results")]
+        results: PathBuf,
+        /// Where the files go.
+        #[arg(short, long, value_name = "DIR", default_value = "paper/generated")]
+        output: PathBuf,
+        /// Writes nothing, and fails if there is anything to write.
+        #[arg(long)]
+        check: bool,
     },
     /// Makes a page of results, `report.html`; running all experiments ends with it.
     Report {
@@ -115,6 +127,11 @@ fn main() -> ExitCode {
             times,
             write,
         }) => replay(input, &times, write.as_deref()),
+        Some(Verb::Paper {
+            results,
+            output,
+            check,
+        }) => write_paper(&results, &output, check),
         Some(Verb::Report { results, output }) => make_report(&results, output),
         Some(Verb::Contestant { what, input }) => rivals::take_part(&what, &input).map(|()| true),
         Some(Verb::Scale { what, size }) => scaling::take_part(&what, size).map(|()| true),
@@ -152,6 +169,26 @@ fn replay(input: Member, times: &str, write: Option<&Path>) -> Result<bool, Box<
     }
     print!("{}", flip_order::replay::replay(input, number));
     Ok(true)
+}
+
+/// Whether the files are up to date, with `check`, and the sentences of the paper true.
+fn write_paper(results: &Path, output: &Path, check: bool) -> Result<bool, Box<dyn Error>> {
+    let generated = paper::generate(results)?;
+    let mut good = true;
+    if check {
+        for stale in paper::stale(&generated, output)? {
+            eprintln!("{}/{stale}", output.display());
+            good = false;
+        }
+    } else {
+        let files = paper::write(&generated, output)?;
+        println!("{files} files in {}", output.display());
+    }
+    for claim in generated.claims.iter().filter(|claim| !claim.holds()) {
+        eprintln!("{claim}");
+        good = false;
+    }
+    Ok(good)
 }
 
 fn make_report(results: &Path, output: Option<PathBuf>) -> Result<bool, Box<dyn Error>> {

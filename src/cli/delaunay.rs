@@ -35,27 +35,27 @@ pub(crate) fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop
         .filter(|&v| complex.representative[v.index()] == v)
         .collect();
     let duplicates = complex.representative.len() - distinct.len();
-    let result = delaunay(&points, &distinct).map_err(Stop::input)?;
-    let tets: Vec<[VertexId; 4]> = result
-        .mesh
-        .finite()
-        .map(|t| result.mesh.vertices(t))
-        .collect();
+    let mesh = delaunay(&points, &distinct).map_err(Stop::input)?.mesh;
+    let (vertices, tetrahedra) = (distinct.len(), mesh.finite().count());
     if let Some(path) = &arguments.output {
+        // Large inputs: what is not needed any more goes before the next array comes.
+        drop((distinct, complex));
+        let faces = hull_faces(&mesh);
+        let mut tets = Vec::with_capacity(tetrahedra);
+        tets.extend(mesh.finite().map(|t| mesh.vertices(t)));
+        drop(mesh);
         let mesh = ExportedMesh {
             first_index: vertices_only.first_index,
-            vertices: points.as_slice().to_vec(),
-            faces: hull_faces(&result.mesh),
-            tets: tets.clone(),
+            vertices: points.into_vec(),
+            faces,
+            tets,
             ..ExportedMesh::default()
         };
         save(Some(path), &mesh)?;
     }
     if !arguments.quiet {
         say(&format!(
-            "{} distinct vertices ({duplicates} duplicates merged), {} tetrahedra",
-            distinct.len(),
-            tets.len()
+            "{vertices} distinct vertices ({duplicates} duplicates merged), {tetrahedra} tetrahedra"
         ));
     }
     Ok(())

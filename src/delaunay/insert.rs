@@ -1,6 +1,7 @@
 //! The insertion of one vertex.
 
-use crate::mesh::{Corner, TetId, TetMesh, VertexId};
+use super::star::{BoundaryFacet, Star};
+use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId, any_infinite};
 use crate::predicate::PointStore;
 
 /// A Delaunay tetrahedralization that grows.
@@ -16,15 +17,13 @@ pub struct Delaunay {
 /// What one insertion leaves for the next, so that nothing is allocated in the loop.
 #[derive(Clone, Debug, Default)]
 struct Scratch {
-    /// `marks[t]` is 2·stamp if t was found in conflict in insertion `stamp`, 2·stamp + 1 if found not in conflict.
-    marks: Vec<u32>,
-    stamp: u32,
-    /// The conflict zone; removed at the end of the insertion.
+    /// The conflict zone; reused or removed at the end of the insertion.
     conflict: Vec<TetId>,
-    /// The facets of the conflict zone's boundary, as corners of conflicting tetrahedra.
-    boundary: Vec<Corner>,
+    /// The facets of the conflict zone's boundary.
+    boundary: Vec<BoundaryFacet>,
     /// The star of the new vertex.
     created: Vec<TetId>,
+    star: Star,
 }
 
 impl Delaunay {
@@ -71,8 +70,8 @@ impl Delaunay {
     }
 
     /// The facets between that conflict zone and the rest, as corners of tetrahedra in the zone.
-    pub fn conflict_boundary(&self) -> &[Corner] {
-        &self.scratch.boundary
+    pub fn conflict_boundary(&self) -> impl Iterator<Item = Corner> + '_ {
+        self.scratch.boundary.iter().map(|facet| facet.inside)
     }
 
     /// The tetrahedra that the last insertion created: all those around the new vertex, ghosts included.
@@ -88,11 +87,23 @@ impl Delaunay {
     }
 
     /// The second half of an insertion: replaces the conflict zone of p, found just before by
-    /// [`Delaunay::find_conflicts`], by the star of p.
+    /// [`Delaunay::find_conflicts`], by the star of p. The star takes the memory of the zone, which is in the cache.
     pub fn replace_conflicts(&mut self, p: VertexId) {
-        self.make_star(p);
-        self.glue_star(p);
-        self.remove_conflicts();
+        let scratch = &mut self.scratch;
+        scratch.created.clear();
+        scratch
+            .created
+            .extend(scratch.conflict.iter().take(scratch.boundary.len()));
+        for _ in scratch.created.len()..scratch.boundary.len() {
+            scratch.created.push(self.mesh.add([VertexId::INFINITE; 4]));
+        }
+        scratch
+            .star
+            .fill(&mut self.mesh, p, &mut scratch.boundary, &scratch.created);
+        for &t in scratch.conflict.iter().skip(scratch.boundary.len()) {
+            self.mesh.remove(t);
+        }
+        self.hint = scratch.created.last().copied();
     }
 
     /// A tetrahedron in conflict with p: the finite one that contains it, or the ghost beyond whose facet it lies.
@@ -104,143 +115,88 @@ impl Delaunay {
         if let Some(slot) = mesh.slot_of(t, VertexId::INFINITE) {
             t = mesh.neighbor(t.corner(slot));
         }
-        let mut entered = 4;
-        'walk: loop {
-            let v = mesh.vertices(t);
-            for slot in 0..4 {
-                if slot == entered {
-                    continue;
-                }
-                let mut moved = v;
-                moved[slot] = p;
-                if points.orient3d(moved).is_negative() {
-                    let across = mesh.twin(t.corner(slot));
-                    t = across.tet();
-                    entered = across.slot();
-                    if mesh.is_ghost(t) {
-                        return t;
-                    }
-                    continue 'walk;
-                }
+        while let Some(slot) = points.facet_towards(mesh.vertices(t), p) {
+            t = mesh.neighbor(t.corner(slot));
+            if mesh.is_ghost(t) {
+                break;
             }
-            return t;
         }
+        t
     }
 
-    fn in_conflict<P: PointStore>(&self, points: &P, t: TetId, p: VertexId) -> bool {
-        let [a, b, c, d] = self.mesh.vertices(t);
-        let Some(slot) = self.mesh.slot_of(t, VertexId::INFINITE) else {
-            return points.insphere([a, b, c, d, p]).is_positive();
-        };
-        let mut moved = [a, b, c, d];
-        moved[slot] = p;
-        let side = points.orient3d(moved);
-        if !side.is_zero() {
-            return side.is_positive();
+    /// Whether the circumsphere of `t`, with vertices `v`, contains p.
+    #[inline]
+    fn in_conflict<P: PointStore>(
+        &self,
+        points: &P,
+        t: TetId,
+        v: [VertexId; 4],
+        p: VertexId,
+    ) -> bool {
+        let [a, b, c, d] = v;
+        if any_infinite(v) {
+            return self.ghost_in_conflict(points, t, v, p);
         }
-        let [a, b, c, d] = self.mesh.vertices(self.mesh.neighbor(t.corner(slot)));
         points.insphere([a, b, c, d, p]).is_positive()
     }
 
+    #[cold]
+    fn ghost_in_conflict<P: PointStore>(
+        &self,
+        points: &P,
+        t: TetId,
+        mut v: [VertexId; 4],
+        p: VertexId,
+    ) -> bool {
+        let ghost = v.iter().position(|v| v.is_infinite());
+        let slot = ghost.expect("a ghost has the vertex at infinity");
+        v[slot] = p;
+        let side = points.orient3d(v);
+        if !side.is_zero() {
+            return side.is_positive();
+        }
+        // On the plane of the hull facet: as the finite neighbour, which may be marked already.
+        let (marked, [a, b, c, d]) = self.mesh.unless_marked(self.mesh.neighbor(t.corner(slot)));
+        marked || points.insphere([a, b, c, d, p]).is_positive()
+    }
+
     /// The first half of an insertion: the conflict zone of p, all tetrahedra whose circumsphere contains p, grown from
-    /// `start`, one of them. Read it with [`Delaunay::conflicts`].
+    /// `start`, one of them, breadth first. Read it with [`Delaunay::conflicts`].
     pub fn find_conflicts<P: PointStore>(&mut self, points: &P, p: VertexId, start: TetId) {
-        self.scratch.begin(self.mesh.capacity());
-        self.scratch.mark_conflict(start);
+        self.scratch.conflict.clear();
+        self.scratch.boundary.clear();
+        self.join_conflicts(start);
         let mut next = 0;
         while let Some(&t) = self.scratch.conflict.get(next) {
             next += 1;
+            let (v, twins) = self.mesh.marked(t);
             for slot in 0..4 {
-                let c = t.corner(slot);
-                let n = self.mesh.neighbor(c);
-                match self.scratch.verdict(n) {
-                    Some(true) => {}
-                    Some(false) => self.scratch.boundary.push(c),
-                    None if self.in_conflict(points, n, p) => self.scratch.mark_conflict(n),
-                    None => {
-                        self.scratch.mark_clear(n);
-                        self.scratch.boundary.push(c);
-                    }
-                }
-            }
-        }
-    }
-
-    /// One tetrahedron for every boundary facet. The boundary corners, which belong to tetrahedra about to be removed,
-    /// are left pointing at the new tetrahedra for [`Delaunay::glue_star`].
-    fn make_star(&mut self, p: VertexId) {
-        self.scratch.created.clear();
-        for &c in &self.scratch.boundary {
-            let mut v = self.mesh.vertices(c.tet());
-            v[c.slot()] = p;
-            let outside = self.mesh.twin(c);
-            let star = self.mesh.add(v);
-            self.mesh.glue(star.corner(c.slot()), outside);
-            self.mesh.set_twin(c, star.corner(c.slot()));
-            self.scratch.created.push(star);
-        }
-    }
-
-    /// Glues the star's tetrahedra to each other: for each edge of the boundary, turn around it through the old
-    /// conflict zone, from one boundary facet to the other.
-    fn glue_star(&mut self, p: VertexId) {
-        for (&c, &star) in self.scratch.boundary.iter().zip(&self.scratch.created) {
-            for slot in (0..4).filter(|&slot| slot != c.slot()) {
-                let mine = star.corner(slot);
-                if self.mesh.twin(mine) != Corner::NONE {
+                let outside = twins[slot];
+                let n = outside.tet();
+                let (marked, vertices) = self.mesh.unless_marked(n);
+                if marked {
                     continue;
                 }
-                // The edge is opposite both slots; `apex` is the vertex that the turn leaves behind.
-                let mut exit = c.tet().corner(slot);
-                let mut behind = self.mesh.vertex(c);
-                loop {
-                    let across = self.mesh.twin(exit);
-                    let ahead = self.mesh.vertex(across);
-                    let next = self.mesh.corner_of(across.tet(), behind);
-                    if ahead == p {
-                        // `exit` is a boundary corner and points at its star tetrahedron.
-                        self.mesh.glue(mine, next);
-                        break;
-                    }
-                    exit = next;
-                    behind = ahead;
+                if self.in_conflict(points, n, vertices, p) {
+                    self.join_conflicts(n);
+                } else {
+                    let [i, j, k] = FACET[slot];
+                    let facet = [v[i], v[j], v[k]];
+                    let facet = BoundaryFacet::new(facet, t.corner(slot), outside);
+                    self.scratch.boundary.push(facet);
                 }
             }
         }
-    }
-
-    fn remove_conflicts(&mut self) {
         for &t in &self.scratch.conflict {
-            self.mesh.remove(t);
+            self.mesh.toggle_mark(t);
         }
-        self.hint = self.scratch.created.last().copied();
-    }
-}
-
-impl Scratch {
-    fn begin(&mut self, capacity: usize) {
-        if self.stamp >= u32::MAX / 2 - 1 {
-            self.marks.fill(0);
-            self.stamp = 0;
-        }
-        self.stamp += 1;
-        self.marks.resize(capacity.max(self.marks.len()), 0);
-        self.conflict.clear();
-        self.boundary.clear();
     }
 
-    fn mark_conflict(&mut self, t: TetId) {
-        self.marks[t.index()] = 2 * self.stamp;
-        self.conflict.push(t);
-    }
-
-    fn mark_clear(&mut self, t: TetId) {
-        self.marks[t.index()] = 2 * self.stamp + 1;
-    }
-
-    /// Whether t is known to be in conflict in this insertion.
-    fn verdict(&self, t: TetId) -> Option<bool> {
-        let mark = self.marks.get(t.index()).copied().unwrap_or(0);
-        (mark >> 1 == self.stamp).then_some(mark & 1 == 0)
+    /// Adds `t` to the conflict zone.
+    #[inline]
+    fn join_conflicts(&mut self, t: TetId) {
+        self.mesh.prefetch_neighbors(t);
+        self.mesh.toggle_mark(t);
+        self.scratch.conflict.push(t);
     }
 }

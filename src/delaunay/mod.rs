@@ -13,6 +13,7 @@ mod build;
 mod insert;
 mod order;
 mod removal;
+mod star;
 
 pub use build::{DelaunayError, delaunay};
 pub use insert::Delaunay;

@@ -70,34 +70,62 @@ fn mix(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// The place of a grid cell on the Hilbert curve (Skilling 2004: axes to transpose, then interleaved).
-fn hilbert_index(mut x: [u32; 3]) -> u64 {
-    let mut q = 1 << (BITS - 1);
-    while q > 1 {
-        let p = q - 1;
-        for i in 0..3 {
-            if x[i] & q != 0 {
-                x[0] ^= p;
+/// The place of a grid cell on the Hilbert curve (Hamilton & Rau-Chaplin 2008), from the coarsest level to the finest: the
+/// table gives the place of a level's octant on the curve, and how the curve runs within it.
+fn hilbert_index(cell: [u32; 3]) -> u64 {
+    let [x, y, z] = cell.map(spread);
+    let octants = x | y << 1 | z << 2;
+    let (mut index, mut state) = (0, 0);
+    for level in (0..BITS).rev() {
+        let octant = (octants >> (3 * level)) & 7;
+        let step = CURVE[(state | octant) as usize];
+        index = index << 3 | u64::from(step & 7);
+        state = u64::from(step) & !7;
+    }
+    index
+}
+
+/// By 8·state + octant: 8·(next state) + the place of the octant on the curve.
+const CURVE: [u8; 192] = curve();
+
+/// A state is the corner where the curve enters a cube and the axis along which it goes through: 3·corner + axis, 24 states.
+const fn curve() -> [u8; 192] {
+    let mut table = [0; 192];
+    let mut state = 0;
+    while state < 24 {
+        let (entry, axis) = (state / 3, state % 3);
+        let mut octant = 0;
+        while octant < 8 {
+            // The octant as the curve of the state 0 sees it, and its place there: the inverse of the Gray code.
+            let seen = rotate(octant ^ entry, 3 - (axis + 1) % 3);
+            let place = seen ^ (seen >> 1) ^ (seen >> 2);
+            // Where the curve enters that octant, and along which axis it goes through.
+            let enters = if place == 0 {
+                0
             } else {
-                let t = (x[0] ^ x[i]) & p;
-                x[0] ^= t;
-                x[i] ^= t;
-            }
+                gray((place - 1) / 2 * 2)
+            };
+            let along = match place {
+                0 => 0,
+                p if p % 2 == 0 => (p - 1).trailing_ones() as usize % 3,
+                p => p.trailing_ones() as usize % 3,
+            };
+            let next = 3 * (entry ^ rotate(enters, (axis + 1) % 3)) + (axis + along + 1) % 3;
+            table[8 * state + octant] = (8 * next + place) as u8;
+            octant += 1;
         }
-        q >>= 1;
+        state += 1;
     }
-    x[1] ^= x[0];
-    x[2] ^= x[1];
-    let mut t = 0;
-    let mut q = 1 << (BITS - 1);
-    while q > 1 {
-        if x[2] & q != 0 {
-            t ^= q - 1;
-        }
-        q >>= 1;
-    }
-    let [a, b, c] = x.map(|y| spread(y ^ t));
-    a << 2 | b << 1 | c
+    table
+}
+
+const fn gray(i: usize) -> usize {
+    i ^ (i >> 1)
+}
+
+/// Three bits rotated to the left.
+const fn rotate(bits: usize, by: usize) -> usize {
+    (bits << (by % 3) | bits >> (3 - by % 3)) & 7
 }
 
 /// The low 21 bits of x, two zeros between each.

@@ -1,5 +1,5 @@
 //! Layers of ground: surfaces of triangles over one plan, closed at their sides, with a region for every part of a layer.
-//! Layers thin out: where two surfaces come together they are one.
+//! Layers but the lowest thin out: where two surfaces come together they are one.
 
 use super::draft::{Draft, Sets, lift};
 use super::draw::{Draw, grid};
@@ -63,8 +63,11 @@ impl Ground {
                 let wave = grid(step * noise[surface].at(i, j));
                 height = match surface {
                     0 => wave,
-                    // A layer is missing where its thickness would be negative.
-                    _ => height + (wave + grid(step / 4.0)).max(0.0),
+                    // The lowest layer is everywhere; another is missing where its thickness would be negative.
+                    _ => {
+                        let least = if surface == 1 { grid(step / 16.0) } else { 0.0 };
+                        height + (wave + grid(step / 4.0)).max(least)
+                    }
                 };
                 height
             });

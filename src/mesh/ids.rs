@@ -14,7 +14,9 @@ impl VertexId {
     /// The vertex with index `i`.
     #[inline]
     pub fn new(i: usize) -> VertexId {
-        VertexId(u32::try_from(i).expect("fewer than 2^32 vertices"))
+        // As for tetrahedra, so that two bits of an id are free.
+        assert!(i < 1 << 30, "fewer than 2^30 vertices");
+        VertexId(i as u32)
     }
 
     /// The index as a `usize`.
@@ -28,6 +30,12 @@ impl VertexId {
     pub fn is_infinite(self) -> bool {
         self == VertexId::INFINITE
     }
+}
+
+/// Whether one of the vertices is that at infinity, whose highest bit no other has.
+#[inline(always)]
+pub(crate) fn any_infinite([a, b, c, d]: [VertexId; 4]) -> bool {
+    (a.0 | b.0 | c.0 | d.0) >> 31 != 0
 }
 
 impl std::fmt::Display for VertexId {

@@ -7,6 +7,7 @@ mod incidence;
 mod topology;
 
 pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
+pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;
 pub use topology::{FACET, NEXT, TetMesh, TopologyError};

@@ -7,9 +7,11 @@
 //! Invariants: `twin(twin(c)) == c`; `c` and `twin(c)` see the same three vertices, in opposite order; a hull facet is
 //! closed by a ghost tetrahedron with one infinite vertex, so that every facet has exactly two tetrahedra.
 //!
-//! Memory: 32 bytes per tetrahedron.
+//! Memory: 32 bytes per tetrahedron, that is 16 for the vertices and 16 for the twins, each with its slot in the two low
+//! bits; a mark, for the search of an insertion, is one bit of the first vertex.
 
-use super::{Corner, TetId, VertexId};
+use super::{Corner, TetId, VertexId, any_infinite};
+use crate::machine::prefetch;
 use rustc_hash::FxHashMap;
 
 /// `FACET[i]` completes `i` to an even permutation of 0123, so `[i, FACET[i]..]` keeps orientation.
@@ -32,6 +34,10 @@ struct Tet {
     vertices: [VertexId; 4],
     twins: [Corner; 4],
 }
+
+/// The bit of the first vertex that is turned over in a marked tetrahedron. In ids below 2^30, and in that of the vertex at
+/// infinity, it equals the next higher bit.
+const MARK: u32 = 1 << 30;
 
 /// A removed tetrahedron, until its id is used again.
 const DEAD: [VertexId; 4] = [VertexId::INFINITE; 4];
@@ -113,8 +119,7 @@ impl TetMesh {
     /// Whether `t` has the infinite vertex.
     #[inline]
     pub fn is_ghost(&self, t: TetId) -> bool {
-        let [a, b, c, d] = self.tets[t.index()].vertices;
-        a.is_infinite() | b.is_infinite() | c.is_infinite() | d.is_infinite()
+        any_infinite(self.tets[t.index()].vertices)
     }
 
     /// The vertex at corner `c`.
@@ -228,7 +233,44 @@ impl TetMesh {
         self.tets[d.tet().index()].twins[d.slot()] = c;
     }
 
-    /// Lets `c` name `d` without the converse: a scratch pointer during an insertion.
+    /// Whether `t` is marked; and its vertices, which are those of a tetrahedron only if it is not.
+    #[inline]
+    pub(crate) fn unless_marked(&self, t: TetId) -> (bool, [VertexId; 4]) {
+        let vertices = self.tets[t.index()].vertices;
+        let VertexId(first) = vertices[0];
+        ((first ^ (first >> 1)) & MARK != 0, vertices)
+    }
+
+    /// Marks `t`, or takes its mark away. A marked tetrahedron must not be looked at but by [`TetMesh::unless_marked`]
+    /// and [`TetMesh::marked`].
+    #[inline]
+    pub(crate) fn toggle_mark(&mut self, t: TetId) {
+        self.tets[t.index()].vertices[0].0 ^= MARK;
+    }
+
+    /// The vertices of a marked tetrahedron and what lies across the facets opposite to them: one cache line, read once.
+    #[inline]
+    pub(crate) fn marked(&self, t: TetId) -> ([VertexId; 4], [Corner; 4]) {
+        let Tet { vertices, twins } = self.tets[t.index()];
+        let [VertexId(first), b, c, d] = vertices;
+        ([VertexId(first ^ MARK), b, c, d], twins)
+    }
+
+    /// Lets the processor fetch the neighbours of `t`, which will be looked at soon.
+    #[inline]
+    pub(crate) fn prefetch_neighbors(&self, t: TetId) {
+        for twin in self.tets[t.index()].twins {
+            prefetch(&self.tets, twin.tet().index());
+        }
+    }
+
+    /// Gives `t` new vertices and lets its facets name `twins` without the converse.
+    #[inline]
+    pub(crate) fn overwrite(&mut self, t: TetId, vertices: [VertexId; 4], twins: [Corner; 4]) {
+        self.tets[t.index()] = Tet { vertices, twins };
+    }
+
+    /// Lets `c` name `d` without the converse.
     #[inline]
     pub(crate) fn set_twin(&mut self, c: Corner, d: Corner) {
         self.tets[c.tet().index()].twins[c.slot()] = d;

@@ -78,14 +78,6 @@ impl Approx {
         }
     }
 
-    /// The same with a larger index, given as a constant: for values that come from memory, so that the compiler sees the
-    /// index of what is computed from them.
-    #[inline(always)]
-    pub(crate) fn with_index_at_most<const K: u32>(self) -> Approx {
-        debug_assert!(self.index <= K, "the index is what the formula says");
-        Approx { index: K, ..self }
-    }
-
     /// k of the proof; 0 for a given double.
     #[inline]
     pub(crate) fn index(&self) -> u32 {

@@ -9,6 +9,7 @@
 //! | [`Wide`] | a float of any number of mantissa bits, for the experiments | always answers, and may lie |
 //! | [`Approx`] | `f64` with a running error bound, the filter | true or unknown |
 //! | [`Dyadic`] | m·2^e, the ring that doubles generate | exact |
+//! | [`Integer`] | integers of fixed size, for coordinates on a grid | exact |
 //! | `num_rational::BigRational` | rationals, for comparison and tests | exact |
 //! | `rug::Rational` | GMP rationals (feature `rug`) | exact |
 //!
@@ -17,6 +18,7 @@
 mod approx;
 mod dyadic;
 mod float;
+mod integer;
 mod rational;
 mod sign;
 mod vector;
@@ -25,6 +27,7 @@ mod wide;
 pub use approx::Approx;
 pub use dyadic::Dyadic;
 pub use float::Float;
+pub use integer::Integer;
 pub use sign::Sign;
 pub use vector::Vec3;
 pub use wide::{Bits, UnknownBits, Wide, WidthTask};

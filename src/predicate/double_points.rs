@@ -7,103 +7,41 @@
 //!
 //! Each sign goes through stages until one is sure:
 //!
-//! 0. the formula over plain doubles, with a bound from the largest coordinate differences X, Y, Z alone. By the proof in
-//!    [`Approx`] the same evaluation has an error of at most k·u′·m, where k = 8 for orient3d (difference 1, product 3,
-//!    minor 4, product 6, two sums 7, 8) and k = 18 for insphere (the same 8 for the five coefficients, sign 9; lift 5;
-//!    product 9 + 5 + 1 = 15; three more sums), and m, the formula over absolute values, is at most 6·X·Y·Z and
-//!    4·6·X·Y·Z·L with L = 3·max(X,Y,Z)² (1 + 8u for its own rounding). Where X, Y and Z are all in [2^−150, 2^150]
-//!    nothing over- or underflows, and the terms T of that proof stay below 2^−1022 · 2^(4·150+10), a fraction 2^−9 of u′
-//!    of the bound. The constants below are rounded up by 1 %;
-//! 1. the formula over [`Approx`] (running error bound, proved there), which also certifies *zero* where all coordinates
-//!    lie on a grid 2^g and the determinant, an integer multiple of 2^(g·degree), is proved smaller than that;
-//! 2. Shewchuk's adaptive expansions from the `robust` crate, where they can neither overflow nor underflow: all
-//!    coordinates are multiples of 2^g with g ≥ −200, hence all terms and tails of the degree 5 polynomial are multiples
-//!    of 2^−1000 and representable; and all are below 2^190 in magnitude, hence the polynomial and its partial sums, a
-//!    sum of at most 2^12 products of five differences below 2^191, stay below 2^(5·191+12) < 2^1023;
-//! 3. the formula over [`Dyadic`](crate::number::Dyadic), for every finite double.
+//! 0. the formula over plain doubles, with an error bound that costs next to nothing. By the proof in [`Approx`] the same
+//!    evaluation has an error of at most k·u′·m, where k = 8 for orient3d (difference 1, product 3, minor 4, product 6, two
+//!    sums 7, 8) and k = 18 for insphere (the same 8 for the five coefficients, sign 9; lift 5; product 9 + 5 + 1 = 15;
+//!    three more sums), and m is the formula over absolute values. With X, Y, Z bounds of the coordinate differences and L
+//!    one of the lifts, m is at most 6·X·Y·Z and 4·6·X·Y·Z·L (up to a factor 1 + 8u for its own rounding, for which the
+//!    constants are rounded up by 1 %). For orient3d X, Y, Z are the extents of the bounding box of all points: one
+//!    constant, and nothing over- or underflows that matters (no extent is above 2^150, and those below 2^−150 are taken
+//!    as that). For insphere L = H, the largest of the four lifts, which come for nothing, and X, Y, Z ≤ √H: the error
+//!    is at most c·H^(5/2), c = 18·24·u′, and det² > c²·H⁵ + 2^−900 is the test without a root. No extent is above 2^99, so
+//!    that nothing overflows; where c²·H⁵ underflows it is below 2^−900; and |det| > 2^−450 is far above what the
+//!    underflow of a product can do, at most 2^−1022 · 2^(4·100+10).
+//! 1. to 3. see [`super::stages`].
+//!
+//! The perturbed sign of a zero takes the signs of the circuit's coefficients from the same evaluation.
 
+use super::pairs;
+use super::range::Range;
 use super::segment_point::{SegmentPoint, between};
 use super::{Parameter, PointStore, Steiner, formula};
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
-use robust::Coord3D;
 
 /// Points with finite double coordinates; Steiner points may have exact ones that are no doubles.
 #[derive(Clone, Debug, Default)]
 pub struct DoublePoints {
     /// [NaN, NaN, i] stands for `segment_points[i]`.
-    points: Vec<[f64; 3]>,
+    pub(super) points: Vec<[f64; 3]>,
     /// By vertex, ascending.
     segment_points: Vec<(usize, SegmentPoint)>,
     steiner: Steiner,
     /// The identities of reordered points; `None` where each has its index.
     identities: Option<Vec<u32>>,
-    range: Range,
+    pub(super) range: Range,
     /// What the range was before the points that changed it: they may be taken back.
     earlier: Vec<(usize, Range)>,
-}
-
-/// What is known of all coordinates that are doubles: the grid that they lie on and their largest magnitude.
-#[derive(Clone, Copy, Debug)]
-struct Range {
-    /// All coordinates are multiples of 2^grid.
-    grid: i32,
-    /// All coordinates are at most this in magnitude.
-    largest: f64,
-    /// 2^(3·grid) and 2^(5·grid), or 0 where that is no normal double.
-    quantum3: f64,
-    quantum5: f64,
-    /// Whether stage 2 is safe.
-    expansions_safe: bool,
-}
-
-impl Default for Range {
-    fn default() -> Range {
-        Range {
-            grid: 1023,
-            largest: 0.0,
-            quantum3: 0.0,
-            quantum5: 0.0,
-            expansions_safe: true,
-        }
-    }
-}
-
-impl Range {
-    fn include(&mut self, x: f64) {
-        if x == 0.0 {
-            return;
-        }
-        let grid = lowest_bit(x);
-        if grid < self.grid || x.abs() > self.largest {
-            self.grid = self.grid.min(grid);
-            self.largest = self.largest.max(x.abs());
-            self.quantum3 = power_of_two(3 * self.grid);
-            self.quantum5 = power_of_two(5 * self.grid);
-            self.expansions_safe = self.grid >= -200 && self.largest < 2f64.powi(190);
-        }
-    }
-}
-
-/// The exponent of the lowest set bit of a non-zero finite double.
-fn lowest_bit(x: f64) -> i32 {
-    let bits = x.to_bits();
-    let biased = ((bits >> 52) & 0x7ff) as i32;
-    let fraction = bits & ((1 << 52) - 1);
-    if biased == 0 {
-        -1074 + fraction.trailing_zeros() as i32
-    } else {
-        biased - 1075 + (fraction | 1 << 52).trailing_zeros() as i32
-    }
-}
-
-/// 2^k if that is a normal double, else 0.
-fn power_of_two(k: i32) -> f64 {
-    if (-1022..=1023).contains(&k) {
-        f64::from_bits(((k + 1023) as u64) << 52)
-    } else {
-        0.0
-    }
 }
 
 impl DoublePoints {
@@ -112,11 +50,9 @@ impl DoublePoints {
     /// # Panics
     /// If a coordinate is not finite: [`crate::plc::Complex::new`] refuses such input.
     pub fn new(points: Vec<[f64; 3]>) -> DoublePoints {
-        let mut range = Range::default();
-        for &x in points.iter().flatten() {
-            assert!(x.is_finite(), "coordinates are finite");
-            range.include(x);
-        }
+        let finite = points.iter().flatten().all(|x| x.is_finite());
+        assert!(finite, "coordinates are finite");
+        let range = Range::of(&points);
         DoublePoints {
             points,
             segment_points: Vec::new(),
@@ -130,6 +66,11 @@ impl DoublePoints {
     /// All points, in order of id; NaN for those that are no doubles.
     pub fn as_slice(&self) -> &[[f64; 3]] {
         &self.points
+    }
+
+    /// The same as a vector of its own.
+    pub fn into_vec(self) -> Vec<[f64; 3]> {
+        self.points
     }
 
     /// The same points, which represent Steiner points in the given way from now on.
@@ -155,7 +96,7 @@ impl DoublePoints {
     }
 
     /// Whether one of the points has coordinates that are no doubles.
-    fn any_segment_point(&self, v: &[VertexId]) -> bool {
+    pub(super) fn any_segment_point(&self, v: &[VertexId]) -> bool {
         !self.segment_points.is_empty() && v.iter().any(|&v| !self.is_double(v))
     }
 
@@ -191,7 +132,7 @@ impl DoublePoints {
 
     /// Stages 1 and 3 where not all coordinates are doubles.
     #[cold]
-    fn orient3d_of_any(&self, v: [VertexId; 4]) -> Sign {
+    pub(super) fn orient3d_of_any(&self, v: [VertexId; 4]) -> Sign {
         let origin = self.rounded(v[0]);
         let p = v.map(|v| self.approx(v, origin));
         let filtered = formula::orient3d(p.each_ref()).sign();
@@ -201,7 +142,7 @@ impl DoublePoints {
 
     /// Stages 1 and 3 where not all coordinates are doubles.
     #[cold]
-    fn insphere_of_any(&self, v: [VertexId; 5]) -> Sign {
+    pub(super) fn insphere_of_any(&self, v: [VertexId; 5]) -> Sign {
         let origin = self.rounded(v[4]);
         let p = v.map(|v| self.approx(v, origin));
         let filtered = formula::insphere(p.each_ref()).sign();
@@ -211,59 +152,8 @@ impl DoublePoints {
 
     /// The coordinates of a point whose coordinates are doubles, NaN for others.
     #[inline]
-    fn at<N: Number>(&self, v: VertexId) -> Vec3<N> {
+    pub(super) fn at<N: Number>(&self, v: VertexId) -> Vec3<N> {
         Vec3::from_f64(self.points[v.index()])
-    }
-
-    #[inline]
-    fn coord(&self, v: VertexId) -> Coord3D<f64> {
-        let [x, y, z] = self.points[v.index()];
-        Coord3D { x, y, z }
-    }
-
-    /// Stages 1 and 2.
-    fn orient3d_filtered(&self, v: [VertexId; 4]) -> Sign {
-        if self.any_segment_point(&v) {
-            return self.orient3d_of_any(v);
-        }
-        let [a, b, c, d] = v;
-        let [a, b, c, d]: [Vec3<Approx>; 4] = [self.at(a), self.at(b), self.at(c), self.at(d)];
-        let filtered = formula::orient3d([&a, &b, &c, &d]).sign_on_grid(self.range.quantum3);
-        filtered.unwrap_or_else(|| self.orient3d_exact(v))
-    }
-
-    /// Stages 1 and 2.
-    fn insphere_filtered(&self, v: [VertexId; 5]) -> Sign {
-        if self.any_segment_point(&v) {
-            return self.insphere_of_any(v);
-        }
-        let [a, b, c, d, e] = v;
-        let [a, b, c, d, e]: [Vec3<Approx>; 5] =
-            [self.at(a), self.at(b), self.at(c), self.at(d), self.at(e)];
-        let filtered = formula::insphere([&a, &b, &c, &d, &e]).sign_on_grid(self.range.quantum5);
-        filtered.unwrap_or_else(|| self.insphere_exact(v))
-    }
-
-    #[cold]
-    fn orient3d_exact(&self, v: [VertexId; 4]) -> Sign {
-        if self.range.expansions_safe {
-            let [a, b, c, d] = v.map(|v| self.coord(v));
-            // Shewchuk's orient3d is the negative of ours.
-            return -Sign::of_f64(robust::orient3d(a, b, c, d))
-                .expect("expansions do not overflow");
-        }
-        formula::orient3d(v.map(|v| self.at::<Dyadic>(v)).each_ref()).exact_sign()
-    }
-
-    #[cold]
-    fn insphere_exact(&self, v: [VertexId; 5]) -> Sign {
-        if self.range.expansions_safe {
-            let [a, b, c, d, e] = v.map(|v| self.coord(v));
-            // Positive inside for the opposite orientation of abcd: the negative of ours.
-            let sign = Sign::of_f64(robust::insphere(a, b, c, d, e));
-            return -sign.expect("expansions do not overflow");
-        }
-        formula::insphere(v.map(|v| self.at::<Dyadic>(v)).each_ref()).exact_sign()
     }
 }
 
@@ -322,9 +212,8 @@ impl PointStore for DoublePoints {
         let before = self.range;
         for x in p {
             assert!(x.is_finite(), "coordinates are finite");
-            self.range.include(x);
         }
-        if (before.grid, before.largest) != (self.range.grid, self.range.largest) {
+        if self.range.include(p) {
             self.earlier.push((self.points.len(), before));
         }
         self.push_unchecked(p)
@@ -363,59 +252,85 @@ impl PointStore for DoublePoints {
         let [a, b, c, d] = v;
         let [a, b, c, d]: [Vec3<f64>; 4] = [self.at(a), self.at(b), self.at(c), self.at(d)];
         let det = formula::orient3d([&a, &b, &c, &d]);
-        let [x, y, z] = largest_differences(&a, [&b, &c, &d]);
-        if det.abs() > ORIENT3D_BOUND * (x * y * z) && in_static_range([x, y, z]) {
+        if det.abs() > self.range.orient3d_error {
             return if det > 0.0 {
                 Sign::Positive
             } else {
                 Sign::Negative
             };
         }
-        self.orient3d_filtered(v)
+        self.orient3d_slow(v)
+    }
+
+    #[inline]
+    fn facet_towards(&self, v: [VertexId; 4], p: VertexId) -> Option<usize> {
+        let [a, b, c, d] = v;
+        let points = &self.points;
+        let sides = pairs::sides([
+            &points[a.index()],
+            &points[b.index()],
+            &points[c.index()],
+            &points[d.index()],
+            &points[p.index()],
+        ]);
+        // The facet that p is farthest behind, by volume, without branches, which nobody could predict.
+        let lesser = |i: usize, j: usize| if sides[j] < sides[i] { j } else { i };
+        let (i, j) = (lesser(0, 1), lesser(2, 3));
+        let slot = if sides[j] < sides[i] { j } else { i };
+        if sides[slot] < -self.range.orient3d_error {
+            return Some(slot);
+        }
+        // By far most often all are positive.
+        let certain = |side: f64| side > self.range.orient3d_error;
+        if certain(sides[slot]) && sides.iter().all(|&side| certain(side)) {
+            return None;
+        }
+        (0..4).find(|&slot| {
+            let mut moved = v;
+            moved[slot] = p;
+            !certain(sides[slot]) && self.orient3d(moved).is_negative()
+        })
     }
 
     #[inline]
     fn insphere_unperturbed(&self, v: [VertexId; 5]) -> Sign {
-        let [a, b, c, d, e] = v;
-        let [a, b, c, d, e]: [Vec3<f64>; 5] =
-            [self.at(a), self.at(b), self.at(c), self.at(d), self.at(e)];
-        let det = formula::insphere([&a, &b, &c, &d, &e]);
-        let [x, y, z] = largest_differences(&e, [&a, &b, &c, &d]);
-        let side = x.max(y).max(z);
-        if det.abs() > INSPHERE_BOUND * (x * y * z) * (side * side) && in_static_range([x, y, z]) {
-            return if det > 0.0 {
+        self.insphere_fast(v)
+            .unwrap_or_else(|| self.insphere_slow::<false>(v))
+    }
+
+    #[inline]
+    fn insphere(&self, v: [VertexId; 5]) -> Sign {
+        self.insphere_fast(v)
+            .unwrap_or_else(|| self.insphere_slow::<true>(v))
+    }
+}
+
+/// 2^−900.
+const TINY: f64 = f64::MIN_POSITIVE * (1u128 << 122) as f64;
+
+impl DoublePoints {
+    /// Stage 0.
+    #[inline]
+    fn insphere_fast(&self, [a, b, c, d, e]: [VertexId; 5]) -> Option<Sign> {
+        let p = &self.points;
+        let (det, h) = pairs::insphere([
+            &p[a.index()],
+            &p[b.index()],
+            &p[c.index()],
+            &p[d.index()],
+            &p[e.index()],
+        ]);
+        let h2 = h * h;
+        if det * det > self.range.insphere_factor * (h2 * h2 * h) + TINY {
+            Some(if det > 0.0 {
                 Sign::Positive
             } else {
                 Sign::Negative
-            };
-        }
-        self.insphere_filtered(v)
-    }
-}
-
-/// 8·6·2⁻⁵², rounded up.
-const ORIENT3D_BOUND: f64 = 48.5 * f64::EPSILON;
-/// 18·24·3·2⁻⁵², rounded up.
-const INSPHERE_BOUND: f64 = 1310.0 * f64::EPSILON;
-
-/// The largest |x|, |y|, |z| among the differences of some points to one.
-#[inline]
-fn largest_differences<const N: usize>(origin: &Vec3<f64>, points: [&Vec3<f64>; N]) -> [f64; 3] {
-    let mut largest = [0.0f64; 3];
-    for p in points {
-        for (i, x) in largest.iter_mut().enumerate() {
-            *x = x.max((p.0[i] - origin.0[i]).abs());
+            })
+        } else {
+            None
         }
     }
-    largest
-}
-
-/// Whether stage 0 is proved for these differences.
-#[inline]
-fn in_static_range(largest: [f64; 3]) -> bool {
-    const LOW: f64 = 1.0 / (1u128 << 100) as f64 / (1u64 << 50) as f64;
-    const HIGH: f64 = (1u128 << 100) as f64 * (1u64 << 50) as f64;
-    largest.iter().all(|&x| (LOW..=HIGH).contains(&x))
 }
 
 #[cfg(test)]
@@ -479,7 +394,16 @@ mod tests {
             prop_assert_eq!(store.orient3d_exact([a, b, c, d]), o);
             let s = formula::insphere(exact.each_ref()).exact_sign();
             prop_assert_eq!(store.insphere_unperturbed(v), s);
-            prop_assert_eq!(store.insphere_exact(v), s);
+            prop_assert_eq!(store.insphere_exact::<false>(v), s);
+            let behind = |slot: usize| {
+                let mut moved = [a, b, c, d];
+                moved[slot] = v[4];
+                store.orient3d(moved).is_negative()
+            };
+            match store.facet_towards([a, b, c, d], v[4]) {
+                Some(slot) => prop_assert!(behind(slot)),
+                None => prop_assert!(!(0..4).any(behind)),
+            }
         }
 
         /// The same with exact points on segments, also for points of one line or plane.

@@ -61,16 +61,6 @@ impl<N: Number> Lifted<N> {
         Vec3([component(0), component(1), component(2)])
     }
 
-    /// The same with other numbers in place of the volume and the cross products.
-    #[inline(always)]
-    pub fn map(&self, volume: impl Fn(&N) -> N, cross: impl Fn(&Vec3<N>) -> Vec3<N>) -> Self {
-        let [x, y, z] = &self.crosses;
-        Lifted {
-            volume: volume(&self.volume),
-            crosses: [cross(x), cross(y), cross(z)],
-        }
-    }
-
     /// V.
     #[inline(always)]
     pub fn volume(&self) -> &N {

@@ -5,9 +5,13 @@
 
 mod double_points;
 pub mod formula;
+mod integers;
 mod naive;
+mod pairs;
 mod perturbation;
+mod range;
 mod segment_point;
+mod stages;
 mod store;
 
 pub use double_points::DoublePoints;

@@ -54,6 +54,15 @@ pub trait PointStore {
         formula::orient3d(p.each_ref()).exact_sign()
     }
 
+    /// A slot of the positive tetrahedron v whose facet has p strictly behind it, if there is one: for walks.
+    fn facet_towards(&self, v: [VertexId; 4], p: VertexId) -> Option<usize> {
+        (0..4).find(|&slot| {
+            let mut moved = v;
+            moved[slot] = p;
+            self.orient3d(moved).is_negative()
+        })
+    }
+
     /// The sign of the unperturbed insphere determinant: positive iff e is inside the circumsphere of a positive abcd.
     fn insphere_unperturbed(&self, v: [VertexId; 5]) -> Sign {
         let p = v.map(|v| self.coordinates::<Dyadic>(v));

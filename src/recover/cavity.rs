@@ -17,9 +17,16 @@
 //! (paper, Fig. 4).
 //!
 //! Nothing of the mesh is changed until both triangulations are complete.
+//!
+//! # Complexity
+//! Expected O(n log n) for D, of n vertices, and linear time for the rest: D is searched for the facets of the boundary once
+//! ([`Walls`]), and after a tetrahedron has been swallowed only for those whose part of D has changed. What is inside is
+//! glued as it is in D.
 
 use super::region::Region;
+use super::scratch::Table;
 use super::side::{Side, Sides};
+use super::walls::{Filled, Wall, Walls};
 use crate::delaunay::{Delaunay, delaunay};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
@@ -45,8 +52,6 @@ pub enum Refused {
     NotExposed,
     /// The left cavity's D does not have f's triangles.
     Incompatible,
-    /// Triangles of other polygons would vanish, and the caller did not allow it.
-    Displaces,
 }
 
 /// A retriangulation of R and of what the cavities swallowed, ready to be grafted.
@@ -56,12 +61,57 @@ pub struct Retriangulation {
     pub old: Vec<TetId>,
     /// The tetrahedra that take their place.
     pub new: Vec<[VertexId; 4]>,
+    /// What lies across their facets, if that is known.
+    pub across: Option<Vec<[Across; 4]>>,
     /// The triangles of f.
     pub faces: Vec<[VertexId; 3]>,
     /// The triangles of other polygons that vanish.
     pub displaced: Vec<Face>,
     /// How many tetrahedra the cavities swallowed.
     pub swallowed: usize,
+}
+
+/// What lies across a facet of a new tetrahedron.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Across {
+    /// A new tetrahedron, by its index instead of an id.
+    New(Corner),
+    /// A tetrahedron that stays in the mesh.
+    Old(Corner),
+}
+
+impl Retriangulation {
+    /// Puts the new tetrahedra into the place of the old ones. Returns their ids, in order.
+    pub fn graft(&self, mesh: &mut TetMesh) -> Vec<TetId> {
+        debug_assert!(mesh.can_replace(&self.old, &self.new));
+        let Some(across) = &self.across else {
+            return mesh.replace(&self.old, &self.new);
+        };
+        for &t in &self.old {
+            mesh.remove(t);
+        }
+        let ids: Vec<TetId> = self.new.iter().map(|&v| mesh.add(v)).collect();
+        for (&t, across) in ids.iter().zip(across) {
+            for (slot, &across) in across.iter().enumerate() {
+                match across {
+                    Across::New(c) => {
+                        mesh.set_twin(t.corner(slot), ids[c.tet().index()].corner(c.slot()));
+                    }
+                    Across::Old(c) => mesh.glue(t.corner(slot), c),
+                }
+            }
+        }
+        ids
+    }
+}
+
+/// Memory that is kept from region to region.
+#[derive(Clone, Debug, Default)]
+pub struct CavityScratch {
+    /// Which side has swallowed a tetrahedron.
+    swallowed_by: Table<Option<Side>>,
+    /// The vertices of D, each with a tetrahedron of D once D has been indexed.
+    tet_at: Table<Option<TetId>>,
 }
 
 /// Retriangulates the region R of f. `is_subpolygon` tells the triangles of polygons that are in the mesh.
@@ -73,51 +123,72 @@ pub fn retriangulate<P: PointStore>(
     sides: &Sides<P>,
     region: &Region,
     is_subpolygon: &dyn Fn(Face) -> bool,
+    scratch: &mut CavityScratch,
 ) -> Result<Retriangulation, Refused> {
-    let mut right = Cavity::new(mesh, sides, region, Side::Right)?;
-    let border = right.open_edges();
-    right.expand(mesh, sides, region, Side::Left, &[])?;
-    let faces = right.faces_on_hull(sides, &border)?;
-    let below = right.inside(&faces)?;
+    scratch.swallowed_by.clear();
+    let place = Place {
+        mesh,
+        sides,
+        region,
+    };
+    let [below, above] = [Side::Right, Side::Left].map(|side| place.boundary(side));
 
-    let mut left = Cavity::new(mesh, sides, region, Side::Left)?;
-    left.expand(mesh, sides, region, Side::Right, &right.swallowed)?;
+    let mut right = Cavity::new(place, Side::Right, &below?, &[], scratch)?;
+    let border = right.open_edges();
+    right.expand()?;
+    let (faces, corners) = right.faces_on_hull(&border)?;
+    for (&facet, &corner) in faces.iter().zip(&corners) {
+        right.walls.add(Wall::of_polygon(facet, corner));
+    }
+    let below = right
+        .walls
+        .inside(&right.d.mesh)
+        .ok_or(Refused::NotExposed)?;
+    let mut swallowed = right.swallowed;
+
     let turned: Vec<[VertexId; 3]> = faces.iter().map(|&[a, b, c]| [b, a, c]).collect();
-    if turned.iter().any(|&f| left.corner_of(f).is_none()) {
+    let mut left = Cavity::new(place, Side::Left, &above?, &turned, scratch)?;
+    left.expand()?;
+    if !left.has_polygon() {
         return Err(Refused::Incompatible);
     }
-    let above = left.inside(&turned)?;
+    let above = left.walls.inside(&left.d.mesh).ok_or(Refused::NotExposed)?;
+    swallowed.append(&mut left.swallowed);
 
     let mut old = region.tets.clone();
-    old.extend(right.swallowed.iter().chain(&left.swallowed));
+    old.extend(&swallowed);
     old.sort_unstable();
-    let new = [below, above].concat();
-    let displaced = vanishing(mesh, &old, &new, is_subpolygon);
+    let is_old = |t: TetId| region.contains(t) || scratch.swallowed_by.get(t.index()).is_some();
+    let (new, across) = Filled::join(below, above, &is_old).ok_or(Refused::NotExposed)?;
+    let displaced = vanishing(place, &old, &new, &is_old, is_subpolygon);
     Ok(Retriangulation {
         old,
         new,
+        across: Some(across),
         faces,
         displaced,
-        swallowed: right.swallowed.len() + left.swallowed.len(),
+        swallowed: swallowed.len(),
     })
 }
 
-/// The triangles of polygons between two of the `old` tetrahedra that the `new` ones do not have.
-fn vanishing(
-    mesh: &TetMesh,
+/// The triangles of polygons between two of the `old` tetrahedra that the `new` ones do not have. Crossing triangles are
+/// known to be of no polygon.
+fn vanishing<P: PointStore>(
+    place: Place<P>,
     old: &[TetId],
     new: &[[VertexId; 4]],
+    is_old: &dyn Fn(TetId) -> bool,
     is_subpolygon: &dyn Fn(Face) -> bool,
 ) -> Vec<Face> {
-    let corners = old
-        .iter()
-        .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
-    let inner =
-        corners.filter(|&c| c < mesh.twin(c) && old.binary_search(&mesh.neighbor(c)).is_ok());
-    let polygons: Vec<Face> = inner
-        .map(|c| face(mesh.facet(c)))
-        .filter(|&f| is_subpolygon(f))
-        .collect();
+    let mesh = place.mesh;
+    let mut polygons: Vec<Face> = Vec::new();
+    for &t in old {
+        let crossing = place.sides.crossing_facets(&mesh.vertices(t));
+        let corners = (0..4).filter(|slot| !crossing[*slot]).map(|s| t.corner(s));
+        let inner = corners.filter(|&c| c < mesh.twin(c) && is_old(mesh.neighbor(c)));
+        let facets = inner.map(|c| face(mesh.facet(c)));
+        polygons.extend(facets.filter(|&f| is_subpolygon(f)));
+    }
     if polygons.is_empty() {
         return polygons;
     }
@@ -129,160 +200,230 @@ fn vanishing(
     polygons.into_iter().filter(|f| !kept.contains(f)).collect()
 }
 
+/// Where a cavity is.
+struct Place<'a, P> {
+    mesh: &'a TetMesh,
+    sides: &'a Sides<'a, P>,
+    region: &'a Region,
+}
+
+impl<P> Clone for Place<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P> Copy for Place<'_, P> {}
+
+impl<P: PointStore> Place<'_, P> {
+    /// The facets of R's boundary on one side of f: oriented outwards, with the corner outside of each.
+    fn boundary(&self, side: Side) -> Result<Vec<([VertexId; 3], Corner)>, Refused> {
+        let mut boundary = Vec::with_capacity(self.region.tets.len() / 2);
+        for &t in &self.region.tets {
+            let vertices = self.mesh.vertices(t);
+            let [left, right] = self.sides.left_and_right(&vertices);
+            let here = if side == Side::Left { left } else { right };
+            for c in (0..4).map(|slot| t.corner(slot)) {
+                let others = !(1 << c.slot());
+                if self.region.contains(self.mesh.neighbor(c)) {
+                    continue;
+                }
+                if (left | right) & others == 0 {
+                    // A triangle on f already, though f is missing here: f is not flat, and would be covered twice.
+                    return Err(Refused::NotExposed);
+                }
+                if here & others != 0 {
+                    boundary.push((self.mesh.facet(c), self.mesh.twin(c)));
+                }
+            }
+        }
+        Ok(boundary)
+    }
+}
+
 /// One of the two cavities.
-struct Cavity {
-    /// The boundary facets without f, in order of discovery: oriented outwards, with the corner outside of each.
-    boundary: Vec<([VertexId; 3], Corner)>,
-    /// Their faces. A facet of `boundary` that is no longer here has been swallowed.
-    faces: FxHashSet<Face>,
+struct Cavity<'a, P> {
+    place: Place<'a, P>,
+    side: Side,
+    /// The boundary, and where it is in D.
+    walls: Walls,
     /// The Delaunay tetrahedralization D of the cavity's vertices.
     d: Delaunay,
-    vertices: FxHashSet<VertexId>,
-    /// The facets of D, each by one of its two corners.
-    facets: FxHashMap<Face, Corner>,
+    is_indexed: bool,
+    scratch: &'a mut CavityScratch,
     swallowed: Vec<TetId>,
 }
 
-impl Cavity {
-    /// The part of R on one side of f, and D.
-    fn new<P: PointStore>(
-        mesh: &TetMesh,
-        sides: &Sides<P>,
-        region: &Region,
+impl<'a, P: PointStore> Cavity<'a, P> {
+    /// The part of R on one side of f, and D. `boundary` is that of R there, `f` the triangles of f if they are known.
+    fn new(
+        place: Place<'a, P>,
         side: Side,
-    ) -> Result<Cavity, Refused> {
-        let boundary: Vec<([VertexId; 3], Corner)> = region
-            .boundary(mesh)
-            .into_iter()
-            .map(|c| (mesh.facet(c), mesh.twin(c)))
-            .filter(|(facet, _)| facet.iter().any(|&v| sides.of(v) == side))
-            .collect();
-        let mut vertices: Vec<VertexId> =
-            region.tets.iter().flat_map(|&t| mesh.vertices(t)).collect();
-        vertices.retain(|&v| sides.of(v) == side || sides.of(v) == Side::On);
-        vertices.sort_unstable();
-        vertices.dedup();
-        let d = delaunay(sides.points(), &vertices).map_err(|_| Refused::NotExposed)?;
-        let mut cavity = Cavity {
-            faces: boundary.iter().map(|&(facet, _)| face(facet)).collect(),
-            boundary,
-            d,
-            vertices: vertices.into_iter().collect(),
-            facets: FxHashMap::default(),
-            swallowed: Vec::new(),
-        };
-        cavity.index_facets();
-        Ok(cavity)
-    }
-
-    fn index_facets(&mut self) {
-        self.facets.clear();
-        for t in self.d.mesh.finite() {
-            for slot in 0..4 {
-                let c = t.corner(slot);
-                self.facets.insert(face(self.d.mesh.facet(c)), c);
+        boundary: &[([VertexId; 3], Corner)],
+        f: &[[VertexId; 3]],
+        scratch: &'a mut CavityScratch,
+    ) -> Result<Self, Refused> {
+        scratch.tet_at.clear();
+        let mut vertices: Vec<VertexId> = Vec::with_capacity(place.region.tets.len() / 4);
+        for v in place
+            .region
+            .tets
+            .iter()
+            .flat_map(|&t| place.mesh.vertices(t))
+        {
+            let of_v = place.sides.of(v);
+            if (of_v == side || of_v == Side::On) && scratch.tet_at.get(v.index()).is_none() {
+                scratch.tet_at.set(v.index(), Some(NOT_INDEXED));
+                vertices.push(v);
             }
         }
+        vertices.sort_unstable();
+        let d = delaunay(place.sides.points(), &vertices).map_err(|_| Refused::NotExposed)?;
+        let boundary = boundary.iter().map(|&(facet, c)| Wall::new(facet, c));
+        let f = f.iter().map(|&facet| Wall::of_polygon(facet, Corner::NONE));
+        let mut walls = Walls::new(boundary.chain(f));
+        walls.find_all(&d.mesh);
+        Ok(Cavity {
+            place,
+            side,
+            walls,
+            d,
+            is_indexed: false,
+            scratch,
+            swallowed: Vec::new(),
+        })
     }
 
     /// The edges that f must close: f's boundary in this region, each directed so that f, seen as part of the cavity's
-    /// outward oriented boundary, has it.
+    /// outward oriented boundary, has it. A facet that is not part of the cavity's boundary is on the other side, so that
+    /// neither end of its edge is on this one.
     fn open_edges(&self) -> Vec<[VertexId; 2]> {
-        let directed = |&([a, b, c], _): &([VertexId; 3], Corner)| [[a, b], [b, c], [c, a]];
-        let all: FxHashSet<[VertexId; 2]> = self.boundary.iter().flat_map(directed).collect();
-        let edges = self.boundary.iter().flat_map(directed);
-        edges
-            .map(|[a, b]| [b, a])
-            .filter(|e| !all.contains(e))
-            .collect()
+        let on_this_side = |&v: &VertexId| self.place.sides.of(v) == self.side;
+        let facets = self.walls.current().map(|wall| wall.facet);
+        let directed = facets.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let edges: Vec<[VertexId; 2]> = directed.filter(|e| !e.iter().any(on_this_side)).collect();
+        let all: FxHashSet<[VertexId; 2]> = edges.iter().copied().collect();
+        let edges = edges.into_iter().map(|[a, b]| [b, a]);
+        edges.filter(|e| !all.contains(e)).collect()
     }
 
     /// Swallows tetrahedra until every boundary facet is in D.
-    fn expand<P: PointStore>(
-        &mut self,
-        mesh: &TetMesh,
-        sides: &Sides<P>,
-        region: &Region,
-        other: Side,
-        taken: &[TetId],
-    ) -> Result<(), Refused> {
-        loop {
-            let current = self
-                .boundary
-                .iter()
-                .filter(|(facet, _)| self.faces.contains(&face(*facet)));
-            let missing: Vec<Corner> = current
-                .filter(|(facet, _)| !self.facets.contains_key(&face(*facet)))
-                .map(|&(_, c)| c)
-                .collect();
-            if missing.is_empty() {
-                return Ok(());
-            }
+    fn expand(&mut self) -> Result<(), Refused> {
+        let mut missing = self.walls.missing();
+        while !missing.is_empty() {
+            self.index();
+            // Walls that D may have or not: new ones, and those whose tetrahedron has gone from D.
+            let mut unknown = Vec::new();
             for outside in missing {
-                let t = outside.tet();
-                if self.swallowed.contains(&t) {
-                    continue;
-                }
-                if mesh.is_ghost(t) || region.contains(t) || taken.contains(&t) {
-                    return Err(Refused::NoRoom);
-                }
-                if mesh.vertices(t).iter().any(|&v| sides.of(v) == other) {
-                    return Err(Refused::OtherSide);
-                }
-                self.swallow(mesh, sides.points(), t);
+                self.swallow(outside.tet(), &mut unknown)?;
             }
-            self.index_facets();
-            self.boundary
-                .retain(|(facet, _)| self.faces.contains(&face(*facet)));
+            let tet_at = |v: VertexId| self.scratch.tet_at.get(v.index());
+            missing = self.walls.find_again(&unknown, &self.d.mesh, &tet_at);
         }
+        Ok(())
     }
 
-    fn swallow<P: PointStore>(&mut self, mesh: &TetMesh, points: &P, t: TetId) {
+    /// Swallows one tetrahedron, unless that has been done.
+    fn swallow(&mut self, t: TetId, unknown: &mut Vec<u32>) -> Result<(), Refused> {
+        let Place {
+            mesh,
+            sides,
+            region,
+        } = self.place;
+        let swallowed_by = self.scratch.swallowed_by.get(t.index());
+        if swallowed_by == Some(self.side) {
+            return Ok(());
+        }
+        if mesh.is_ghost(t) || region.contains(t) || swallowed_by.is_some() {
+            return Err(Refused::NoRoom);
+        }
+        let is_other = |&v: &VertexId| ![self.side, Side::On, Side::Stray].contains(&sides.of(v));
+        if mesh.vertices(t).iter().any(is_other) {
+            return Err(Refused::OtherSide);
+        }
+        self.scratch.swallowed_by.set(t.index(), Some(self.side));
         self.swallowed.push(t);
-        for slot in 0..4 {
-            let c = t.corner(slot);
-            let key = face(mesh.facet(c));
-            if !self.faces.remove(&key) {
-                self.faces.insert(key);
-                self.boundary.push((mesh.facet(c), mesh.twin(c)));
+        for c in (0..4).map(|slot| t.corner(slot)) {
+            let facet = mesh.facet(c);
+            match self.walls.find(face(facet)) {
+                Some(wall) => self.walls.remove(wall),
+                None => unknown.push(self.walls.add(Wall::new(facet, mesh.twin(c)))),
             }
         }
         for v in mesh.vertices(t) {
-            if self.vertices.insert(v) {
-                self.d.insert(points, v);
+            if self.scratch.tet_at.get(v.index()).is_none() {
+                self.insert(v, unknown);
+            }
+        }
+        Ok(())
+    }
+
+    /// Inserts a vertex into D.
+    fn insert(&mut self, v: VertexId, unknown: &mut Vec<u32>) {
+        let points = self.place.sides.points();
+        let start = self.d.locate(points, v);
+        self.d.find_conflicts(points, v, start);
+        for &t in self.d.conflicts() {
+            for c in (0..4).map(|slot| t.corner(slot)) {
+                if let Some(wall) = self.walls.find(face(self.d.mesh.facet(c))) {
+                    self.walls.lose(wall);
+                    unknown.push(wall);
+                }
+            }
+        }
+        self.d.replace_conflicts(v);
+        for &t in self.d.created() {
+            note_vertices(&mut self.scratch.tet_at, &self.d.mesh, t);
+        }
+    }
+
+    /// Notes a tetrahedron of D at each of its vertices.
+    fn index(&mut self) {
+        if !std::mem::replace(&mut self.is_indexed, true) {
+            for t in self.d.mesh.finite() {
+                note_vertices(&mut self.scratch.tet_at, &self.d.mesh, t);
             }
         }
     }
 
-    /// The triangles of f: the facets on the hull of D that `border` encloses, oriented outwards.
-    fn faces_on_hull<P: PointStore>(
+    /// Whether D has all triangles of f, with a tetrahedron on their inner side.
+    fn has_polygon(&self) -> bool {
+        let mut of_polygon = self.walls.current().filter(|wall| wall.is_of_polygon());
+        of_polygon.all(|wall| wall.has_inside(&self.d.mesh))
+    }
+
+    /// The triangles of f: the facets on the hull of D that `border` encloses, oriented outwards, with the corners on their
+    /// inner sides.
+    fn faces_on_hull(
         &self,
-        sides: &Sides<P>,
         border: &[[VertexId; 2]],
-    ) -> Result<Vec<[VertexId; 3]>, Refused> {
+    ) -> Result<(Vec<[VertexId; 3]>, Vec<Corner>), Refused> {
         let mesh = &self.d.mesh;
-        let mut across: FxHashMap<[VertexId; 2], ([VertexId; 3], VertexId)> = FxHashMap::default();
+        let mut across: FxHashMap<[VertexId; 2], (Corner, VertexId)> = FxHashMap::default();
         for t in mesh.all() {
             if let Some(slot) = mesh.slot_of(t, VertexId::INFINITE) {
-                let [a, b, c] = mesh.facet(mesh.twin(t.corner(slot)));
-                for (edge, apex) in [([a, b], c), ([b, c], a), ([c, a], b)] {
-                    across.insert(edge, ([a, b, c], apex));
+                let inner = mesh.twin(t.corner(slot));
+                let [a, b, c] = mesh.facet(inner);
+                if [a, b, c]
+                    .iter()
+                    .all(|&v| self.place.sides.of(v) == Side::On)
+                {
+                    for (edge, apex) in [([a, b], c), ([b, c], a), ([c, a], b)] {
+                        across.insert(edge, (inner, apex));
+                    }
                 }
             }
         }
         let closed_by_border: FxHashSet<[VertexId; 2]> = border.iter().copied().collect();
-        let mut faces = Vec::new();
+        let mut corners = Vec::new();
         let mut open: Vec<[VertexId; 2]> = border.to_vec();
         let mut closed: FxHashSet<[VertexId; 2]> = FxHashSet::default();
         while let Some([a, b]) = open.pop() {
             if !closed.insert([a, b]) {
                 continue;
             }
-            let &(facet, v) = across.get(&[a, b]).ok_or(Refused::NotExposed)?;
-            if facet.iter().any(|&v| sides.of(v) != Side::On) {
-                return Err(Refused::NotExposed);
-            }
-            faces.push(facet);
+            let &(inner, v) = across.get(&[a, b]).ok_or(Refused::NotExposed)?;
+            corners.push(inner);
             for [p, q] in [[b, v], [v, a]] {
                 closed.insert([p, q]);
                 if !closed_by_border.contains(&[p, q]) {
@@ -290,55 +431,16 @@ impl Cavity {
                 }
             }
         }
-        Ok(faces)
+        let faces = corners.iter().map(|&c| mesh.facet(c)).collect();
+        Ok((faces, corners))
     }
+}
 
-    /// The corner in D of an outward oriented facet, in the tetrahedron on its inner side.
-    fn corner_of(&self, facet: [VertexId; 3]) -> Option<Corner> {
-        let c = *self.facets.get(&face(facet))?;
-        let [a, b, p] = facet;
-        let seen = self.d.mesh.facet(c);
-        let same = [[a, b, p], [b, p, a], [p, a, b]].contains(&seen);
-        let inner = if same { c } else { self.d.mesh.twin(c) };
-        (!self.d.mesh.is_ghost(inner.tet())).then_some(inner)
-    }
+/// Stands for a tetrahedron of D at a vertex of D before they are known.
+const NOT_INDEXED: TetId = TetId(u32::MAX);
 
-    /// The tetrahedra of D inside the cavity that the boundary and `f` enclose: those reached from their inner sides.
-    fn inside(&self, f: &[[VertexId; 3]]) -> Result<Vec<[VertexId; 4]>, Refused> {
-        let mesh = &self.d.mesh;
-        let walls: FxHashSet<Face> = self
-            .faces
-            .iter()
-            .copied()
-            .chain(f.iter().map(|&t| face(t)))
-            .collect();
-        // All facets of the boundary are oriented outwards, those found on swallowing a tetrahedron, too.
-        let outer = self.boundary.iter().map(|&(facet, _)| facet);
-        let mut inside: Vec<TetId> = Vec::new();
-        let mut seen = vec![false; mesh.capacity()];
-        for facet in outer.chain(f.iter().copied()) {
-            let t = self.corner_of(facet).ok_or(Refused::NotExposed)?.tet();
-            if !std::mem::replace(&mut seen[t.index()], true) {
-                inside.push(t);
-            }
-        }
-        let mut next = 0;
-        while let Some(&t) = inside.get(next) {
-            next += 1;
-            for slot in 0..4 {
-                let c = t.corner(slot);
-                if walls.contains(&face(mesh.facet(c))) {
-                    continue;
-                }
-                let n = mesh.neighbor(c);
-                if mesh.is_ghost(n) {
-                    return Err(Refused::NotExposed);
-                }
-                if !std::mem::replace(&mut seen[n.index()], true) {
-                    inside.push(n);
-                }
-            }
-        }
-        Ok(inside.into_iter().map(|t| mesh.vertices(t)).collect())
+fn note_vertices(tet_at: &mut Table<Option<TetId>>, mesh: &TetMesh, t: TetId) {
+    for v in mesh.vertices(t).into_iter().filter(|v| !v.is_infinite()) {
+        tet_at.set(v.index(), Some(t));
     }
 }

@@ -10,6 +10,11 @@
 //! - no other edge of its triangles is a subsegment, or has triangles of another polygon;
 //! - its triangles have no vertices but those of f and Steiner points on its segments.
 //!
+//! Of a polygon that is flat only to rounding each piece counts for itself. A segment, or the foot of a wall, that lies
+//! along one of its cuts without being declared there is therefore not refused. Nothing is lost: where a polygon like that
+//! lies is known only to rounding, the cut is a chain of edges of the mesh, and both constraints are unions of simplices of
+//! it, as if it had been declared. ([`crate::check`] refuses it if its own triangulation of the polygon has that diagonal.)
+//!
 //! All of it is combinatorial, hence exact. O(k log k) for k triangles on polygons.
 
 use super::polygons::{Subpolygons, boundary_subsegments};

@@ -85,6 +85,7 @@ pub fn gift_wrap<P: PointStore>(
     let wrapped = Retriangulation {
         old: region.tets.clone(),
         new,
+        across: None,
         faces,
         displaced: Vec::new(),
         swallowed: 0,

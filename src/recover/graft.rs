@@ -4,7 +4,7 @@
 //! refused. Gift wrapping is refused only if f is not flat or the PLC not valid; then the caller flips. It also flips in
 //! place of a fallback on gift wrapping, whose time is quadratic, in regions of more than [`MOST_WRAPPED`] tetrahedra.
 
-use super::cavity::{self, Face, Refused, Retriangulation};
+use super::cavity::{self, Face, Retriangulation};
 use super::gift_wrap::gift_wrap;
 use super::method::Insertion;
 use super::polygons::{PolygonInsertion, count_shims};
@@ -51,23 +51,16 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     }
 
     fn by_cavity(
-        &self,
+        &mut self,
         sides: &Sides<P>,
         region: &Region,
         may_displace: bool,
     ) -> Option<Retriangulation> {
         let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
-        let result =
-            cavity::retriangulate(self.mesh, sides, region, &is_subpolygon).and_then(|r| {
-                if !may_displace && !r.displaced.is_empty() {
-                    Err(Refused::Displaces)
-                } else if self.mesh.can_replace(&r.old, &r.new) {
-                    Ok(r)
-                } else {
-                    Err(Refused::NotExposed)
-                }
-            });
-        result.ok()
+        let scratch = &mut self.scratch.cavity;
+        let result = cavity::retriangulate(self.mesh, sides, region, &is_subpolygon, scratch);
+        let fits = |r: &Retriangulation| may_displace || r.displaced.is_empty();
+        result.ok().filter(fits)
     }
 
     fn by_gift_wrapping(&self, sides: &Sides<P>, region: &Region) -> Option<Retriangulation> {
@@ -80,7 +73,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
 
     /// Puts a retriangulation into the mesh.
     fn graft(&mut self, f: usize, sides: &Sides<P>, r: &Retriangulation) -> Vec<usize> {
-        let created = self.mesh.replace(&r.old, &r.new);
+        let created = r.graft(self.mesh);
         self.incidence.update(self.mesh, &created);
         self.counts.swallowed += r.swallowed as u64;
         self.counts.displaced += r.displaced.len() as u64;

@@ -121,7 +121,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         }
         // Edges on the boundary of the zone stay.
         let mut border: FxHashSet<[VertexId; 2]> = FxHashSet::default();
-        for &c in self.delaunay.conflict_boundary() {
+        for c in self.delaunay.conflict_boundary() {
             let [x, y, z] = mesh.facet(c);
             border.extend([key(x, y), key(y, z), key(z, x)]);
         }

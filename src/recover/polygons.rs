@@ -1,12 +1,13 @@
 //! All polygons, one missing region at a time, by any of the algorithms (paper §3, §3.3).
 
-use super::cavity::{Face, face};
+use super::cavity::{CavityScratch, Face, face};
 use super::dump::region_as_plc;
 use super::flips::{FlipOutcome, FlipScratch, Flipped, Watch, flip_insert, polygon_faces};
 use super::judge::{Judge, RegionFailure, inner_subpolygons};
 pub use super::method::{Insertion, PolygonCounts, Times};
 use super::missing::{self, Obstacle};
 use super::region::Region;
+use super::scratch::Table;
 use super::segments::{SegmentIndex, Subsegments};
 use super::side::{Side, SideTable, Sides};
 use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
@@ -53,7 +54,9 @@ pub struct PolygonInsertion<'a, P> {
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     pub(super) flips: FlipScratch,
+    pub(super) cavity: CavityScratch,
     pub(super) sides: SideTable,
+    region: Table<bool>,
 }
 
 /// How often a polygon that is flat only to rounding is searched for missing regions.
@@ -194,22 +197,37 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         seed: TetId,
         may_displace: bool,
     ) -> Result<Vec<usize>, Failure> {
-        let region = Region::grow(self.mesh, sides, seed);
-        self.check_crossings(f, sides, flat, &region)?;
+        let marks = std::mem::take(&mut self.scratch.region);
+        let region = Region::with_marks(self.mesh, sides, seed, marks);
+        let result = self.insert_grown(f, sides, flat, &region, may_displace);
+        self.scratch.region = region.into_marks();
+        result
+    }
+
+    /// The same, once the region is known.
+    fn insert_grown(
+        &mut self,
+        f: usize,
+        sides: &Sides<P>,
+        flat: bool,
+        region: &Region,
+        may_displace: bool,
+    ) -> Result<Vec<usize>, Failure> {
+        self.check_crossings(f, sides, flat, region)?;
         self.counts.regions += 1;
         self.counts.crossing_tets += region.tets.len() as u64;
         self.counts.largest_region = self.counts.largest_region.max(region.tets.len() as u64);
         let times = match self.insertion {
             Insertion::Flip(times) => times,
             Insertion::Cavity | Insertion::GiftWrap => {
-                if let Some(displaced) = self.by_retriangulation(f, sides, &region, may_displace) {
+                if let Some(displaced) = self.by_retriangulation(f, sides, region, may_displace) {
                     return Ok(displaced);
                 }
                 Times::Filtered
             }
         };
         let mut result = self.by_flips(f, sides, flat, region, times);
-        if !flat && let Err((_, region)) = result {
+        if !flat && let Err((_, region)) = &result {
             result = self.by_flips(f, &sides.reversed(), flat, region, times);
         }
         result
@@ -273,27 +291,28 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         let facets = || self.complex.polygons[f].facets.clone();
         for segment in region.crossing_edges(self.mesh, sides) {
             let [a, b] = segment;
-            if self.subsegments.segment_of(a, b).is_some() {
+            if let Some(s) = self.subsegments.segment_of(a, b) {
                 return Err(if certain(&segment) {
                     let facets = facets();
                     InvalidPlc::SegmentThroughPolygon { facets, segment }.into()
                 } else {
-                    self.not_flat(f, NotFlatReason::Crossed)
+                    let segment = self.complex.segments[s as usize].ends;
+                    self.not_flat(f, NotFlatReason::CrossedBySegment { segment })
                 });
             }
         }
         for c in region.crossing_triangles(self.mesh, sides) {
             let facet = self.mesh.facet(c);
             if let Some(&other) = self.subpolygons.get(&face(facet)) {
+                let second = self.complex.polygons[other as usize].facets.clone();
                 return Err(if certain(&facet) {
-                    let second = self.complex.polygons[other as usize].facets.clone();
                     InvalidPlc::PolygonsIntersect {
                         first: facets(),
                         second,
                     }
                     .into()
                 } else {
-                    self.not_flat(f, NotFlatReason::Crossed)
+                    self.not_flat(f, NotFlatReason::CrossedByPolygon { facets: second })
                 });
             }
         }
@@ -306,7 +325,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         f: usize,
         sides: &Sides<P>,
         flat: bool,
-        region: Region,
+        region: &Region,
         times: Times,
     ) -> Result<(), (RegionFailure, Region)> {
         let before: Vec<[VertexId; 4]> =
@@ -316,7 +335,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         }
         let inner = match times.is_exact() {
             true => Vec::new(),
-            false => inner_subpolygons(self.mesh, &region, self.subpolygons),
+            false => inner_subpolygons(self.mesh, region, self.subpolygons),
         };
         let watch = self.watch.as_deref_mut().map(|w| w as &mut dyn Watch);
         let Flipped {
@@ -326,7 +345,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         } = flip_insert(
             self.mesh,
             sides,
-            &region,
+            region,
             times,
             &mut self.scratch.flips,
             watch,
@@ -363,7 +382,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             let mut tets = self.mesh.replace(&tets, &before);
             self.incidence.update(self.mesh, &tets);
             tets.sort_unstable();
-            return Err((failure, Region { tets }));
+            return Err((failure, Region::of(tets)));
         }
         self.counts.shims += count_shims(self.mesh, sides, &tets);
         self.recovered(f, &faces);
@@ -473,7 +492,11 @@ pub(super) fn boundary_subsegments(
         .collect()
 }
 
+/// The tetrahedra whose vertices are all on f: none if that is flat.
 pub(super) fn count_shims<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, tets: &[TetId]) -> u64 {
+    if sides.flat {
+        return 0;
+    }
     let is_shim = |&&t: &&TetId| mesh.vertices(t).iter().all(|&v| sides.of(v) == Side::On);
     tets.iter().filter(is_shim).count() as u64
 }

@@ -1,41 +1,70 @@
 //! The region R of a missing region of a polygon f: the tetrahedra whose interiors f cuts (paper §3).
 
-use super::side::{Side, Sides};
+use super::scratch::Table;
+use super::side::Sides;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
-use rustc_hash::FxHashSet;
 
 /// The crossing tetrahedra of one missing region, connected by crossing triangles.
 #[derive(Clone, Debug, Default)]
 pub struct Region {
     /// The tetrahedra of R, sorted.
     pub tets: Vec<TetId>,
+    /// The same as a table.
+    marks: Table<bool>,
 }
 
 impl Region {
     /// Grows R from one of its tetrahedra. f cannot end inside a tetrahedron, because its edges are edges of the mesh, so
     /// every crossing triangle of a tetrahedron of R leads to another one.
     pub fn grow<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, seed: TetId) -> Region {
+        Region::with_marks(mesh, sides, seed, Table::default())
+    }
+
+    /// The same, using the memory of `marks`.
+    pub fn with_marks<P: PointStore>(
+        mesh: &TetMesh,
+        sides: &Sides<P>,
+        seed: TetId,
+        mut marks: Table<bool>,
+    ) -> Region {
+        marks.clear();
+        marks.set(seed.index(), true);
         let mut tets = vec![seed];
-        let mut seen: FxHashSet<TetId> = tets.iter().copied().collect();
         let mut next = 0;
         while let Some(&t) = tets.get(next) {
             next += 1;
-            for slot in 0..4 {
-                let c = t.corner(slot);
+            let crossing = sides.crossing_facets(&mesh.vertices(t));
+            for c in (0..4).filter(|slot| crossing[*slot]).map(|s| t.corner(s)) {
                 let n = mesh.neighbor(c);
-                if !mesh.is_ghost(n) && sides.crosses(&mesh.facet(c)) && seen.insert(n) {
+                if !marks.get(n.index()) && !mesh.is_ghost(n) {
+                    marks.set(n.index(), true);
                     tets.push(n);
                 }
             }
         }
         tets.sort_unstable();
-        Region { tets }
+        Region { tets, marks }
+    }
+
+    /// The region that consists of the given tetrahedra, sorted.
+    pub fn of(tets: Vec<TetId>) -> Region {
+        let mut marks = Table::default();
+        for t in &tets {
+            marks.set(t.index(), true);
+        }
+        Region { tets, marks }
+    }
+
+    /// The memory given to [`Region::with_marks`].
+    pub fn into_marks(self) -> Table<bool> {
+        self.marks
     }
 
     /// Whether t is in R.
+    #[inline]
     pub fn contains(&self, t: TetId) -> bool {
-        self.tets.binary_search(&t).is_ok()
+        self.marks.get(t.index())
     }
 
     /// The crossing triangles between two tetrahedra of R, each once. (If f is flat all of them are; one that is not may
@@ -45,34 +74,28 @@ impl Region {
         mesh: &TetMesh,
         sides: &Sides<P>,
     ) -> Vec<Corner> {
-        let corners = self
-            .tets
-            .iter()
-            .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
-        corners
-            .filter(|&c| c < mesh.twin(c) && !mesh.is_ghost(mesh.neighbor(c)))
-            .filter(|&c| sides.crosses(&mesh.facet(c)))
-            .collect()
+        let mut triangles = Vec::with_capacity(2 * self.tets.len());
+        for &t in &self.tets {
+            let crossing = sides.crossing_facets(&mesh.vertices(t));
+            let corners = (0..4).filter(|slot| crossing[*slot]).map(|s| t.corner(s));
+            triangles
+                .extend(corners.filter(|&c| c < mesh.twin(c) && !mesh.is_ghost(mesh.neighbor(c))));
+        }
+        triangles
     }
 
     /// The crossing edges l–r, l on the left, in order of their first tetrahedron; repeated.
-    pub fn crossing_edges<P: PointStore>(
-        &self,
-        mesh: &TetMesh,
-        sides: &Sides<P>,
-    ) -> Vec<[VertexId; 2]> {
-        let mut edges = Vec::new();
-        for &t in &self.tets {
+    pub fn crossing_edges<'a, P: PointStore>(
+        &'a self,
+        mesh: &'a TetMesh,
+        sides: &'a Sides<P>,
+    ) -> impl Iterator<Item = [VertexId; 2]> + 'a {
+        self.tets.iter().flat_map(move |&t| {
             let v = mesh.vertices(t);
-            for l in v.into_iter().filter(|&l| sides.of(l) == Side::Left) {
-                edges.extend(
-                    v.into_iter()
-                        .filter(|&r| sides.of(r) == Side::Right)
-                        .map(|r| [l, r]),
-                );
-            }
-        }
-        edges
+            let [left, right] = sides.left_and_right(&v);
+            let among = |set: u8| (0..4usize).filter(move |i| set >> i & 1 == 1);
+            among(left).flat_map(move |i| among(right).map(move |j| [v[i], v[j]]))
+        })
     }
 
     /// The facets of R's boundary, as corners of its tetrahedra.

@@ -163,6 +163,25 @@ impl<'a, P: PointStore> Sides<'a, P> {
         left && right
     }
 
+    /// Which of a tetrahedron's vertices are left and which are right, as bits.
+    #[inline]
+    pub fn left_and_right(&self, vertices: &[VertexId; 4]) -> [u8; 2] {
+        let (mut left, mut right) = (0, 0);
+        for (i, &v) in vertices.iter().enumerate() {
+            let side = self.of(v);
+            left |= u8::from(side == Side::Left) << i;
+            right |= u8::from(side == Side::Right) << i;
+        }
+        [left, right]
+    }
+
+    /// Which facets of a tetrahedron have vertices on both sides, by the opposite vertex.
+    #[inline]
+    pub fn crossing_facets(&self, vertices: &[VertexId; 4]) -> [bool; 4] {
+        let [left, right] = self.left_and_right(vertices);
+        [0, 1, 2, 3].map(|i: u8| left & !(1 << i) != 0 && right & !(1 << i) != 0)
+    }
+
     /// Whether t has vertices on both sides and is no ghost.
     pub fn crosses_tet(&self, mesh: &TetMesh, t: TetId) -> bool {
         !mesh.is_ghost(t) && self.crosses(&mesh.vertices(t))

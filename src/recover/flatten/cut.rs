@@ -8,7 +8,9 @@
 //! here, where nothing of the mesh has been touched:
 //!
 //! - Two edges that cross in projection are opposite edges of a shim, or of a pile of shims (tetrahedra with all vertices
-//!   on f). The lower one is chosen, so that f runs below all shims.
+//!   on f). Any choice will do that divides f into flat cells: the lower one always, so that f runs below all shims; the
+//!   upper one always; or the shorter one first. On the convex hull one of the first two can be a bad choice: from
+//!   outside, every edge of the hull is Delaunay, however long, and hides shims across segments.
 //! - Where neither diagonal of a quadrilateral is an edge (paper, Fig. 4) a cell remains that is not flat: [`Cut::bad`].
 //!
 //! Linear in the stars of f's vertices, but for the sweep over its edges.
@@ -99,29 +101,98 @@ pub(super) fn cut<P: PointStore>(
         });
         candidates.extend(others.into_iter().map(|w| [v, w]));
     }
-    let (accepted, choices) = without_crossings(points, &plane, boundary, vertices, candidates);
-    let cells = cells(&plane, boundary, vertices, &accepted);
-    let mut result = Cut {
-        choices,
-        ..Cut::default()
-    };
-    for cell in cells {
-        match piece(points, &plane, f, &cell) {
-            Some(piece) => result.pieces.push(piece),
-            None => result.bad.push(cell),
+    let crossings = crossings(points, &plane, boundary, vertices, candidates);
+    let preferences = [Preference::Lower, Preference::Upper, Preference::Shorter];
+    let mut best: Option<Cut> = None;
+    for preference in preferences {
+        let accepted = crossings.without(points, preference);
+        let mut result = Cut {
+            choices: crossings.pairs.len(),
+            ..Cut::default()
+        };
+        for cell in cells(&plane, boundary, vertices, &accepted) {
+            match piece(points, &plane, f, &cell) {
+                Some(piece) => result.pieces.push(piece),
+                None => result.bad.push(cell),
+            }
+        }
+        let done = result.bad.is_empty() || result.choices == 0;
+        if best.as_ref().is_none_or(|b| result.bad.len() < b.bad.len()) {
+            best = Some(result);
+        }
+        if done {
+            break;
         }
     }
-    result
+    best.expect("there is a first one")
 }
 
-/// The candidates that cross neither the boundary nor a candidate that is preferred, and how many are not preferred.
-fn without_crossings<P: PointStore>(
+/// Which of two crossing edges is chosen.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Preference {
+    /// The lower one, so that f runs below all shims.
+    Lower,
+    /// The upper one.
+    Upper,
+    /// The shorter one: where f is on the convex hull, an edge on the wrong side may be any, and cross many good ones.
+    Shorter,
+}
+
+/// Edges between vertices of f that cross no edge of its boundary.
+struct Crossings {
+    edges: Vec<[VertexId; 2]>,
+    /// Pairs of edges that cross, by index, the lower one first. Sorted.
+    pairs: Vec<[usize; 2]>,
+}
+
+impl Crossings {
+    /// As many edges as possible of which no two cross.
+    fn without<P: PointStore>(&self, points: &P, preference: Preference) -> Vec<[VertexId; 2]> {
+        let n = self.edges.len();
+        let mut opponents: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
+        for &[i, j] in &self.pairs {
+            opponents.entry(i).or_default().push(j);
+            opponents.entry(j).or_default().push(i);
+        }
+        let mut accepted = vec![preference != Preference::Shorter; n];
+        for &[lower, upper] in &self.pairs {
+            match preference {
+                Preference::Lower => accepted[upper] = false,
+                Preference::Upper => accepted[lower] = false,
+                Preference::Shorter => {}
+            }
+        }
+        let mut order: Vec<usize> = (0..n).collect();
+        if preference == Preference::Shorter {
+            let length = |i: usize| {
+                let [a, b] = self.edges[i].map(|v| points.rounded(v));
+                (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>()
+            };
+            order.sort_by(|&i, &j| length(i).total_cmp(&length(j)).then(i.cmp(&j)));
+        }
+        // Those that give way to none of the accepted ones after all.
+        for i in order {
+            if !accepted[i] {
+                let mut against = opponents.get(&i).into_iter().flatten();
+                accepted[i] = against.all(|&j| !accepted[j]);
+            }
+        }
+        let chosen = self.edges.iter().zip(accepted);
+        chosen
+            .filter(|(_, accepted)| *accepted)
+            .map(|(&e, _)| e)
+            .collect()
+    }
+}
+
+/// The candidates that do not cross the boundary, and how they cross each other.
+fn crossings<P: PointStore>(
     points: &P,
     plane: &Plane<P>,
     boundary: &[[VertexId; 2]],
     vertices: &[VertexId],
     candidates: Vec<[VertexId; 2]>,
-) -> (Vec<[VertexId; 2]>, usize) {
+) -> Crossings {
     #[derive(Clone, Copy, PartialEq)]
     enum Kind {
         Fixed,
@@ -159,7 +230,7 @@ fn without_crossings<P: PointStore>(
         .collect();
     all.sort_by(|x, y| x.0[0].total_cmp(&y.0[0]));
     let mut blocked = vec![false; candidates.len()];
-    // Pairs of crossing candidates, the preferred one first.
+    // Pairs of crossing candidates, the lower one first.
     let mut pairs: Vec<[usize; 2]> = Vec::new();
     for (i, &(r, e, kind)) in all.iter().enumerate() {
         for &(_, g, other) in all[i + 1..].iter().take_while(|x| x.0[0] <= r[1]) {
@@ -197,26 +268,20 @@ fn without_crossings<P: PointStore>(
             }
         }
     }
-    pairs.retain(|pair| pair.iter().all(|&i| !blocked[i]));
-    pairs.sort_unstable();
-    let mut accepted: Vec<bool> = blocked.iter().map(|b| !b).collect();
-    for &[_, other] in &pairs {
-        accepted[other] = false;
-    }
-    // Those that give way to none of the accepted ones after all.
-    let mut opponents: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
-    for &[i, j] in &pairs {
-        opponents.entry(i).or_default().push(j);
-        opponents.entry(j).or_default().push(i);
-    }
-    for i in 0..candidates.len() {
-        if !blocked[i] && !accepted[i] {
-            accepted[i] = opponents[&i].iter().all(|&j| !accepted[j]);
+    let mut new_index = vec![usize::MAX; candidates.len()];
+    let mut edges = Vec::with_capacity(candidates.len());
+    for (i, e) in candidates.into_iter().enumerate() {
+        if !blocked[i] {
+            new_index[i] = edges.len();
+            edges.push(e);
         }
     }
-    let chosen = candidates.into_iter().zip(accepted);
-    let chosen = chosen.filter(|(_, accepted)| *accepted).map(|(e, _)| e);
-    (chosen.collect(), pairs.len())
+    pairs.retain(|pair| pair.iter().all(|&i| !blocked[i]));
+    for pair in &mut pairs {
+        *pair = pair.map(|i| new_index[i]);
+    }
+    pairs.sort_unstable();
+    Crossings { edges, pairs }
 }
 
 /// The cells into which boundary and diagonals divide f.

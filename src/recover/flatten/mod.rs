@@ -6,7 +6,8 @@
 //! polygons are flat. As this happens in the Delaunay tetrahedralization, no mesh of a polygon is ever taken back.
 //!
 //! Then every insertion is one of an exactly flat polygon into an edge-protected PLC, and what is proved of those holds:
-//! there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it.
+//! there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it. It may have shims, which are
+//! repaired on output (`shims.rs`).
 //!
 //! # End
 //! Refinement of nearly flat polygons ends in practice for the same reasons as that of segments; it is bounded by
@@ -15,6 +16,7 @@
 
 mod cut;
 mod plane;
+pub mod shims;
 mod steiner;
 
 use super::polygons::boundary_subsegments;
@@ -25,8 +27,9 @@ use crate::plc::{Complex, Polygon};
 use crate::predicate::PointStore;
 use cut::Cut;
 use plane::Plane;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 use serde::Serialize;
+use shims::ShimCounts;
 use std::ops::Range;
 
 /// How often Steiner points are inserted and polygons are cut again.
@@ -52,8 +55,8 @@ pub struct FlatteningCounts {
     pub rounds: usize,
     /// Polygons left as they are, because too many Steiner points would have been necessary.
     pub left_whole: u64,
-    /// Shim tetrahedra of the output: all four vertices on one polygon that was cut.
-    pub shims: u64,
+    /// Shims of the domain: repaired ([`shims`]), and left in the output.
+    pub shims: ShimCounts,
 }
 
 /// The polygons of a complex in exactly flat pieces.
@@ -89,27 +92,6 @@ impl Pieces {
     /// Whether polygon f had to be cut.
     pub fn is_cut(&self, f: usize) -> bool {
         self.was_cut[f]
-    }
-
-    /// How many of some tetrahedra have all four vertices on one polygon that was cut. Linear time.
-    pub fn count_shims(&self, tets: impl Iterator<Item = [VertexId; 4]>) -> u64 {
-        let mut polygons_at: FxHashMap<VertexId, Vec<usize>> = FxHashMap::default();
-        for f in (0..self.was_cut.len()).filter(|&f| self.was_cut[f]) {
-            for piece in &self.complex.polygons[self.of(f)] {
-                for &v in &piece.vertices {
-                    let at = polygons_at.entry(v).or_default();
-                    if at.last() != Some(&f) {
-                        at.push(f);
-                    }
-                }
-            }
-        }
-        let of = |v: VertexId| polygons_at.get(&v).map_or(&[][..], Vec::as_slice);
-        let is_shim = |[a, b, c, d]: [VertexId; 4]| {
-            let mut shared = of(a).iter();
-            shared.any(|f| [b, c, d].iter().all(|&v| of(v).binary_search(f).is_ok()))
-        };
-        tets.filter(|&t| is_shim(t)).count() as u64
     }
 
     /// Steiner points inside polygon f.
@@ -289,7 +271,9 @@ fn wanted<P: PointStore>(
     let plane = Plane::new(points, polygon.frame);
     let mut taken: Vec<(Request, f64)> = Vec::new();
     for cell in &cut.bad {
-        let Some((request, radius)) = steiner::for_cell(points, &plane, cell, boundary) else {
+        let Some((request, radius)) =
+            steiner::for_cell(points, &plane, cell, boundary, polygon.frame)
+        else {
             continue;
         };
         let is_close = taken.iter().any(|&(other, r)| match (request, other) {

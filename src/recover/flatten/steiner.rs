@@ -15,13 +15,15 @@ const MOST_TRIED: usize = 256;
 /// A Steiner point for a cell of a polygon with the boundary subsegments `boundary`, and the radius of the circle around
 /// it that has no vertex of the cell.
 ///
-/// The circumcenter of the largest Delaunay triangle of the cell's vertices. If that is in the diametral sphere of a
-/// subsegment of the boundary, or beyond one, the subsegment is split instead.
+/// The circumcenter of the largest Delaunay triangle of the cell's vertices, on the plane of the polygon's frame: that of a
+/// small triangle is not where the polygon is. If it is in the diametral sphere of a subsegment of the boundary, or
+/// beyond one, the subsegment is split instead.
 pub(super) fn for_cell<P: PointStore>(
     points: &P,
     plane: &Plane<P>,
     cell: &Cell,
     boundary: &[[VertexId; 2]],
+    frame: [VertexId; 3],
 ) -> Option<(Request, f64)> {
     let vertices = cell.vertices();
     let at = |v: VertexId| points.rounded(v);
@@ -48,6 +50,7 @@ pub(super) fn for_cell<P: PointStore>(
             .map(|(square, e)| (Request::Split(e), square.sqrt()))
     };
     let (radius, center, [a, b, c]) = best?;
+    let center = onto_plane(center, frame.map(at));
     let mut encroached = boundary
         .iter()
         .filter(|&&[a, b]| dot(minus(at(a), center), minus(at(b), center)) <= 0.0);
@@ -81,6 +84,20 @@ fn is_inside<P: PointStore>(plane: &Plane<P>, edges: &[[VertexId; 2]], p: [f64; 
         (ay > y) != (by > y) && x < ax + (bx - ax) * ((y - ay) / (by - ay))
     });
     crossings.count() % 2 == 1
+}
+
+/// The projection of a point onto the plane of three others.
+fn onto_plane(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    let (u, v) = (minus(b, a), minus(c, a));
+    let scale = u.iter().chain(&v).fold(0.0f64, |m, x| m.max(x.abs()));
+    let normal = cross(u.map(|x| x / scale), v.map(|x| x / scale));
+    let off = dot(minus(p, a), normal) / dot(normal, normal);
+    let moved: [f64; 3] = std::array::from_fn(|k| p[k] - off * normal[k]);
+    if moved.iter().all(|x| x.is_finite()) {
+        moved
+    } else {
+        p
+    }
 }
 
 /// The center and radius of the smallest sphere through three points.
@@ -132,5 +149,12 @@ mod tests {
             circumcenter([1., 0., 1.], [0., 2., 1.], [0., 0., 1.]).expect("a triangle");
         assert_eq!((center, radius), ([0.5, 1.0, 1.0], 1.25f64.sqrt()));
         assert_eq!(circumcenter([0.; 3], [1.; 3], [2.; 3]), None);
+    }
+
+    #[test]
+    fn points_go_to_the_plane() {
+        let frame = [[0., 0., 1.], [4., 0., 1.], [0., 2., 3.]];
+        assert_eq!(onto_plane([1., 2., 2.], frame), [1., 1.5, 2.5]);
+        assert_eq!(onto_plane([1., 2., 2.], [[0.; 3]; 3]), [1., 2., 2.]);
     }
 }

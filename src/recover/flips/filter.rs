@@ -1,8 +1,27 @@
 //! N and D of a circuit in floats with error bounds, and exactly where all coordinates are small integers on a grid.
 //!
-//! The evaluation is that of [`formula`](crate::predicate::formula) over [`Approx`], so its proof of the error bounds
-//! applies; the rates d_v are orient3d determinants, computed once per vertex, of index [`RATE_INDEX`] (difference 1,
+//! The evaluation is that of [`formula`](crate::predicate::formula) over plain doubles first, with bounds from the largest
+//! differences alone, and where those do not suffice over [`Approx`], so its proof of the error bounds applies; the rates
+//! d_v are orient3d determinants, computed once per vertex, of index [`RATE_INDEX`] (difference 1,
 //! product 3, minor 4, product 6, two sums 8). The zero rate of a vertex that does not move fulfils the same bound.
+//!
+//! # Bounds from the largest differences
+//! By the proof in [`Approx`] an evaluation errs by at most k·u′·m, where k is an index that depends on the formula and m
+//! the formula over magnitudes. Let X, Y, Z be the largest coordinate differences to the origin, a vertex of the
+//! tetrahedron, R the largest magnitude of a rate relative to that of the origin, and L = X² + Y² + Z². Then
+//!
+//! | value | k | m at most |
+//! |---|---|---|
+//! | volume of the tetrahedron, and with the apex in place of another vertex | 8: cross product 4, product 6, two sums | 6·XYZ |
+//! | volume with the apex in place of the origin | 11: three differences more | 4·6·XYZ |
+//! | D = G·w − V·d_w for the rates | 21: G 16 (rate 9, product 14, two sums), product 18, two sums, difference | 4·6·XYZ·R |
+//! | N, the same for squares | 17: G 12 (square 5, product 10, two sums), product 14, two sums, difference | 4·6·XYZ·L |
+//!
+//! The bounds of this kind are used where X, Y and Z are in [2^−150, 2^150] and R is in [2^−450, 2^450]. Nothing overflows
+//! then: all is below 2^(450+450+20). Products may underflow, and the terms T of that proof, 2^−1022 times the other factors of
+//! a product, are to be made up for; relative to the bound they are largest where the product is that with R, or with L,
+//! and there at most 2^−1022·2^(450+450)·2^52 = 2^−70. The constants are rounded up by 1 %, which pays for them, and for the
+//! rounding of m.
 //!
 //! # Integers
 //! If all coordinates are multiples of 2^g then the c_i, N and D are multiples of the quanta 2^(3g), 2^(5g) and 2^(6g). If
@@ -12,7 +31,7 @@
 
 use super::motion::Motion;
 use crate::mesh::VertexId;
-use crate::number::{Approx, Sign, Vec3};
+use crate::number::{Approx, Number, Sign, Vec3};
 use crate::predicate::PointStore;
 use crate::predicate::formula::Lifted;
 
@@ -39,14 +58,67 @@ struct Grid {
     denominator: f64,
 }
 
-/// What the floats say about a circuit with a positive, or possibly positive, D.
-pub(super) struct Evaluated {
-    /// N.
-    pub n: Approx,
-    /// D.
-    pub d: Approx,
-    /// N and D in quanta, if they are certain.
-    pub integers: Option<[i64; 2]>,
+/// k·m/(XYZ) of the module's table, times u′, rounded up.
+const VOLUME_BOUND: f64 = 48.5 * f64::EPSILON;
+/// The same for the apex in place of the origin.
+const ORIGIN_BOUND: f64 = 267.0 * f64::EPSILON;
+/// The same for D, times 1/R.
+const RISING_BOUND: f64 = 510.0 * f64::EPSILON;
+/// The same for N, times 1/L.
+const RESTING_BOUND: f64 = 413.0 * f64::EPSILON;
+
+/// A value and a bound of its error.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounded {
+    /// The value.
+    pub value: f64,
+    /// At least the distance to the number that it stands for; infinite or NaN where nothing is known.
+    pub error: f64,
+}
+
+impl From<Approx> for Bounded {
+    fn from(x: Approx) -> Bounded {
+        Bounded {
+            value: x.value(),
+            error: x.error(),
+        }
+    }
+}
+
+impl Bounded {
+    /// The sign of the number, if it is known to be an integer multiple of `quantum`.
+    #[inline(always)]
+    fn sign_on_grid(&self, quantum: f64) -> Option<Sign> {
+        if self.value > self.error {
+            Some(Sign::Positive)
+        } else if self.value < -self.error {
+            Some(Sign::Negative)
+        } else if self.value.abs() + self.error < quantum * (1.0 - f64::EPSILON) {
+            Some(Sign::Zero)
+        } else {
+            None
+        }
+    }
+
+    /// Whether the number is certainly positive.
+    #[inline(always)]
+    pub(super) fn is_positive(&self) -> bool {
+        self.value > self.error
+    }
+
+    /// The number as a multiple of `quantum`, which it is known to be, if the bound leaves only one possibility.
+    #[inline(always)]
+    fn in_quanta(&self, quantum: f64) -> Option<i64> {
+        // No quantum: 0 < 0 is false, as bounds are positive.
+        let certain = self.error < 0.5 * quantum && self.is_small(quantum);
+        certain.then(|| (self.value / quantum).round() as i64)
+    }
+
+    /// Whether a smaller error might make an integer of it.
+    #[inline(always)]
+    fn is_small(&self, quantum: f64) -> bool {
+        self.value.abs() < quantum * 2f64.powi(52)
+    }
 }
 
 /// A tetrahedron in floats: what the evaluations of its facets have in common.
@@ -54,22 +126,23 @@ pub struct LiftedTet {
     ids: [VertexId; 4],
     origin: [f64; 5],
     others: [[f64; 5]; 3],
-    lifted: Lifted<Approx>,
+    lifted: Lifted<f64>,
     /// G for the rates.
-    rising: Vec3<Approx>,
-    /// G for |p|², once needed.
-    resting: Option<Vec3<Approx>>,
+    rising: Vec3<f64>,
+    /// X, Y, Z and R, as far as the tetrahedron itself goes.
+    largest: [f64; 4],
 }
 
-impl LiftedTet {
-    /// The lifted tetrahedron with error indices that are constants: volume 8 (as orient3d), cross products 4.
-    #[inline(always)]
-    fn lifted(&self) -> Lifted<Approx> {
-        self.lifted.map(
-            |volume| volume.with_index_at_most::<8>(),
-            with_index_at_most::<4>,
-        )
-    }
+/// The apex across a facet of a lifted tetrahedron.
+pub(super) struct Across {
+    apex: [f64; 5],
+    /// Its place relative to the origin.
+    w: Vec3<f64>,
+    /// X·Y·Z, and L; infinite where the bounds do not hold.
+    product: f64,
+    squares: f64,
+    /// D.
+    pub d: Bounded,
 }
 
 impl<'a, P: PointStore> Filter<'a, P> {
@@ -121,132 +194,233 @@ impl<'a, P: PointStore> Filter<'a, P> {
     /// Prepares the evaluation of the facets of a positive tetrahedron.
     #[inline(always)]
     pub(super) fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
-        let origin = self.vertex(tet[0]);
-        let (a, b, c) = (
-            self.vertex(tet[1]),
-            self.vertex(tet[2]),
-            self.vertex(tet[3]),
-        );
+        let [o, a, b, c] = tet;
+        let origin = self.vertex(o);
+        let others = [self.vertex(a), self.vertex(b), self.vertex(c)];
+        let [a, b, c] = &others;
         let (pa, pb, pc) = (
-            from_origin(&a, &origin),
-            from_origin(&b, &origin),
-            from_origin(&c, &origin),
+            from_origin::<f64>(a, &origin),
+            from_origin::<f64>(b, &origin),
+            from_origin::<f64>(c, &origin),
         );
         let lifted = Lifted::new([&pa, &pb, &pc]);
-        let (ra, rb, rc) = (
-            relative_rate(&a, &origin),
-            relative_rate(&b, &origin),
-            relative_rate(&c, &origin),
-        );
+        let rate = |p: &[f64; 5]| p[3] - origin[3];
+        let largest = |i: usize| pa.0[i].abs().max(pb.0[i].abs()).max(pc.0[i].abs());
         LiftedTet {
             ids: tet,
-            rising: lifted.gradient([&ra, &rb, &rc]),
-            resting: None,
+            rising: lifted.gradient([&rate(a), &rate(b), &rate(c)]),
+            largest: [
+                largest(0),
+                largest(1),
+                largest(2),
+                a[4].max(b[4]).max(c[4]) + origin[4],
+            ],
             origin,
-            others: [a, b, c],
+            others,
             lifted,
         }
     }
 
-    /// N and D for the tetrahedron and the apex across one of its facets; `None` if certainly D ≤ 0.
+    /// D for the tetrahedron and the apex across one of its facets; `None` if certainly D ≤ 0.
     #[inline(always)]
-    pub(super) fn evaluate_across(
-        &mut self,
-        tet: &mut LiftedTet,
-        apex: VertexId,
-    ) -> Option<Evaluated> {
+    pub(super) fn across(&mut self, tet: &LiftedTet, apex: VertexId) -> Option<Across> {
         let apex = self.vertex(apex);
-        let w = from_origin(&apex, &tet.origin);
-        let rate = relative_rate(&apex, &tet.origin);
-        let lifted = tet.lifted();
-        // Rates 9, their products with cross products 14, two sums.
-        let rising = with_index_at_most::<16>(&tet.rising);
-        let d = lifted.below(&rising, &w, &rate);
-        match d.sign_on_grid(self.grid.denominator) {
-            Some(Sign::Negative | Sign::Zero) => return None,
-            Some(Sign::Positive) | None => {}
-        }
-        if tet.resting.is_none() {
-            let [a, b, c] = &tet.others;
-            let (a, b, c) = (
-                from_origin(a, &tet.origin),
-                from_origin(b, &tet.origin),
-                from_origin(c, &tet.origin),
-            );
-            tet.resting = Some(lifted.gradient([&a.dot(&a), &b.dot(&b), &c.dot(&c)]));
-        }
-        let resting = tet.resting.as_ref().expect("just computed");
-        // Squares 5, their products with cross products 10, two sums.
-        let resting = with_index_at_most::<12>(resting);
-        let n = lifted.below(&resting, &w, &w.dot(&w));
-        let integers = match (
-            in_quanta(&n, self.grid.numerator),
-            in_quanta(&d, self.grid.denominator),
-        ) {
-            (Some(n), Some(d)) => Some([n, d]),
-            _ => None,
+        let w = from_origin::<f64>(&apex, &tet.origin);
+        let larger = |i: usize| tet.largest[i].max(w.0[i].abs());
+        let (x, y, z) = (larger(0), larger(1), larger(2));
+        let r = tet.largest[3].max(apex[4] + tet.origin[4]);
+        let holds = in_range(x, 150) & in_range(y, 150) & in_range(z, 150) & in_range(r, 450);
+        let product = if holds { x * y * z } else { f64::INFINITY };
+        let d = Bounded {
+            value: tet
+                .lifted
+                .below(&tet.rising, &w, &(apex[3] - tet.origin[3])),
+            error: RISING_BOUND * product * r,
         };
-        Some(Evaluated { n, d, integers })
+        let mut across = Across {
+            apex,
+            w,
+            product,
+            squares: x * x + y * y + z * z,
+            d,
+        };
+        let quantum = self.grid.denominator;
+        let sign = across.d.sign_on_grid(quantum).or_else(|| {
+            across.d = in_approx(tet, &across).rising();
+            across.d.sign_on_grid(quantum)
+        });
+        (!matches!(sign, Some(Sign::Negative | Sign::Zero))).then_some(across)
     }
 
-    /// The signs of c_x, c_y, c_z of a circuit, for a triangle xyz of the lifted tetrahedron, where they are certain, and all
-    /// five coefficients in quanta, if all are certain: c_w is the volume of the tetrahedron, and those of its vertices are
-    /// the volumes with the apex in their place, negated.
+    /// N.
+    #[inline(always)]
+    pub(super) fn resting(&self, tet: &LiftedTet, across: &Across) -> Bounded {
+        let [a, b, c] = &tet.others;
+        let square = |p: &[f64; 5]| {
+            let p = from_origin::<f64>(p, &tet.origin);
+            p.dot(&p)
+        };
+        let gradient = tet.lifted.gradient([&square(a), &square(b), &square(c)]);
+        let height = across.w.dot(&across.w);
+        Bounded {
+            value: tet.lifted.below(&gradient, &across.w, &height),
+            error: RESTING_BOUND * across.product * across.squares,
+        }
+    }
+
+    /// N and D in quanta, if they are certain.
+    #[inline(always)]
+    pub(super) fn integers(
+        &self,
+        tet: &LiftedTet,
+        across: &Across,
+        n: &Bounded,
+    ) -> Option<[i64; 2]> {
+        let (quantum_n, quantum_d) = (self.grid.numerator, self.grid.denominator);
+        if !n.is_small(quantum_n) || !across.d.is_small(quantum_d) {
+            return None;
+        }
+        let integers = |n: &Bounded, d: &Bounded| {
+            let (n, d) = (n.in_quanta(quantum_n)?, d.in_quanta(quantum_d)?);
+            Some([n, d])
+        };
+        integers(n, &across.d).or_else(|| {
+            let approx = in_approx(tet, across);
+            integers(&approx.resting(), &approx.rising())
+        })
+    }
+
+    /// The signs of c_x, c_y, c_z of a circuit, for a triangle xyz of the lifted tetrahedron, where they are certain.
     #[inline(always)]
     pub(super) fn signs(
-        &mut self,
+        &self,
         tet: &LiftedTet,
-        [v, x, y, z, w]: [VertexId; 5],
-    ) -> ([Option<Sign>; 3], Option<[i64; 5]>) {
-        let w = from_origin(&self.vertex(w), &tet.origin);
-        let lifted = tet.lifted();
-        let volume = *lifted.volume();
-        let [a, b, c] = lifted.with_in_place(&w);
-        let o = volume - &a - &b - &c;
+        across: &Across,
+        circuit: [VertexId; 5],
+    ) -> [Option<Sign>; 3] {
+        let volumes = plain_volumes(tet, across);
+        let [_, x, y, z] = places(tet, circuit);
         let quantum = self.grid.coefficient;
-        let sign = |x: Approx| x.sign_on_grid(quantum);
-        let volumes = [sign(o), sign(a), sign(b), sign(c)];
-        let place = |p: VertexId| {
-            let place = tet.ids.iter().position(|&v| v == p);
-            place.expect("v, x, y, z are the vertices of the tetrahedron")
+        // Written out: array::map is not always inlined.
+        let sign = |i: usize| match volumes[i].sign_on_grid(quantum) {
+            Some(sign) => Some(-sign),
+            None => in_approx(tet, across).sign_of_coefficient(i, quantum),
         };
-        let places = [place(v), place(x), place(y), place(z)];
-        let signs = [1, 2, 3].map(|i: usize| volumes[places[i]].map(|sign| -sign));
-        let integers = || {
-            let with_apex = [
-                in_quanta(&o, quantum)?,
-                in_quanta(&a, quantum)?,
-                in_quanta(&b, quantum)?,
-                in_quanta(&c, quantum)?,
-            ];
-            let [v, x, y, z] = places.map(|i| -with_apex[i]);
-            Some([v, x, y, z, in_quanta(&volume, quantum)?])
-        };
-        (signs, integers())
+        [sign(x), sign(y), sign(z)]
     }
 
-    /// N and D of a circuit; `None` if certainly D ≤ 0.
-    pub(super) fn evaluate(&mut self, [v, x, y, z, w]: [VertexId; 5]) -> Option<Evaluated> {
-        let mut tet = self.lift([v, x, y, z]);
-        self.evaluate_across(&mut tet, w)
+    /// All five coefficients of a circuit in quanta, if all are certain: c_w is the volume of the tetrahedron, and those of
+    /// its vertices are the volumes with the apex in their place, negated.
+    #[inline(always)]
+    pub(super) fn coefficients(
+        &self,
+        tet: &LiftedTet,
+        across: &Across,
+        circuit: [VertexId; 5],
+    ) -> Option<[i64; 5]> {
+        let quantum = self.grid.coefficient;
+        let in_quanta = |[o, a, b, c, volume]: [Bounded; 5]| {
+            let with_apex = [
+                o.in_quanta(quantum)?,
+                a.in_quanta(quantum)?,
+                b.in_quanta(quantum)?,
+                c.in_quanta(quantum)?,
+            ];
+            let [v, x, y, z] = places(tet, circuit).map(|i| -with_apex[i]);
+            Some([v, x, y, z, volume.in_quanta(quantum)?])
+        };
+        let plain = plain_volumes(tet, across);
+        in_quanta(plain).or_else(|| in_quanta(in_approx(tet, across).volumes()))
     }
 }
 
-/// A vector with larger error indices, given as a constant.
+/// Whether 2^−k ≤ x ≤ 2^k.
 #[inline(always)]
-fn with_index_at_most<const K: u32>(v: &Vec3<Approx>) -> Vec3<Approx> {
-    let [x, y, z] = v.0;
-    Vec3([
-        x.with_index_at_most::<K>(),
-        y.with_index_at_most::<K>(),
-        z.with_index_at_most::<K>(),
-    ])
+fn in_range(x: f64, k: i32) -> bool {
+    (2f64.powi(-k)..=2f64.powi(k)).contains(&x)
+}
+
+/// Where v, x, y, z are in the lifted tetrahedron.
+#[inline(always)]
+fn places(tet: &LiftedTet, [v, x, y, z, _]: [VertexId; 5]) -> [usize; 4] {
+    let [_, a, b, c] = tet.ids;
+    let place = |p: VertexId| {
+        debug_assert!(tet.ids.contains(&p), "v, x, y, z are its vertices");
+        usize::from(a == p) | (usize::from(b == p) << 1) | (3 * usize::from(c == p))
+    };
+    [place(v), place(x), place(y), place(z)]
+}
+
+/// The volumes of the tetrahedron with the apex in the place of the origin and of the others, and its own.
+#[inline(always)]
+fn plain_volumes(tet: &LiftedTet, across: &Across) -> [Bounded; 5] {
+    let volume = *tet.lifted.volume();
+    let [a, b, c] = tet.lifted.with_in_place(&across.w);
+    let bounded = |value: f64, bound: f64| Bounded {
+        value,
+        error: bound * across.product,
+    };
+    [
+        bounded(volume - a - b - c, ORIGIN_BOUND),
+        bounded(a, VOLUME_BOUND),
+        bounded(b, VOLUME_BOUND),
+        bounded(c, VOLUME_BOUND),
+        bounded(volume, VOLUME_BOUND),
+    ]
+}
+
+/// The same evaluations with running error bounds.
+struct InApprox {
+    others: [Vec3<Approx>; 3],
+    rates: [Approx; 3],
+    lifted: Lifted<Approx>,
+    w: Vec3<Approx>,
+    rate: Approx,
+}
+
+#[cold]
+#[inline(never)]
+fn in_approx(tet: &LiftedTet, across: &Across) -> InApprox {
+    let others = tet.others.each_ref().map(|p| from_origin(p, &tet.origin));
+    let [a, b, c] = &others;
+    InApprox {
+        lifted: Lifted::new([a, b, c]),
+        rates: tet.others.each_ref().map(|p| relative_rate(p, &tet.origin)),
+        w: from_origin(&across.apex, &tet.origin),
+        rate: relative_rate(&across.apex, &tet.origin),
+        others,
+    }
+}
+
+impl InApprox {
+    fn rising(&self) -> Bounded {
+        let gradient = self.lifted.gradient(self.rates.each_ref());
+        self.lifted.below(&gradient, &self.w, &self.rate).into()
+    }
+
+    fn resting(&self) -> Bounded {
+        let squares = self.others.each_ref().map(|p| p.dot(p));
+        let gradient = self.lifted.gradient(squares.each_ref());
+        let height = self.w.dot(&self.w);
+        self.lifted.below(&gradient, &self.w, &height).into()
+    }
+
+    /// That of −volume.
+    fn sign_of_coefficient(&self, i: usize, quantum: f64) -> Option<Sign> {
+        self.volumes()[i].sign_on_grid(quantum).map(|sign| -sign)
+    }
+
+    fn volumes(&self) -> [Bounded; 5] {
+        let volume = *self.lifted.volume();
+        let [a, b, c] = self.lifted.with_in_place(&self.w);
+        [volume - &a - &b - &c, a, b, c, volume].map(Bounded::from)
+    }
 }
 
 /// p − origin.
 #[inline(always)]
-fn from_origin(p: &[f64; 5], origin: &[f64; 5]) -> Vec3<Approx> {
-    let position = |&[x, y, z, _, _]: &[f64; 5]| Vec3::<Approx>::from_f64([x, y, z]);
+fn from_origin<N: Number>(p: &[f64; 5], origin: &[f64; 5]) -> Vec3<N> {
+    let position = |&[x, y, z, _, _]: &[f64; 5]| Vec3::<N>::from_f64([x, y, z]);
     position(p).sub(&position(origin))
 }
 
@@ -256,12 +430,4 @@ fn relative_rate(p: &[f64; 5], origin: &[f64; 5]) -> Approx {
     let rate =
         |&[_, _, _, value, magnitude]: &[f64; 5]| Approx::with_bound(value, magnitude, RATE_INDEX);
     rate(p) - &rate(origin)
-}
-
-/// x as a multiple of `quantum`, which it is known to be, if the bound leaves only one possibility.
-#[inline]
-fn in_quanta(x: &Approx, quantum: f64) -> Option<i64> {
-    // No quantum: 0 < 0 is false. The error's bound is at least the smallest normal double.
-    let certain = x.error() < 0.5 * quantum && x.value().abs() < quantum * 2f64.powi(52);
-    certain.then(|| (x.value() / quantum).round() as i64)
 }

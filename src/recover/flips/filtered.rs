@@ -4,9 +4,8 @@
 //! else of dyadic numbers of any size.
 //!
 //! # The enclosure
-//! N and D are evaluated over [`Approx`], which gives n, d and bounds e ≥ |N − n|, g ≥ |D − d|, valid for every finite
-//! input, under- and overflow included (the proof is there; the evaluation of D has the rates d_v, themselves orient3d
-//! determinants, as its last column, and the same rules apply to it). Let d > g, so that D > 0 is certain, and let
+//! N and D are evaluated in floats (`filter.rs`), which gives n, d and bounds e ≥ |N − n|, g ≥ |D − d|, valid for every finite
+//! input, under- and overflow included (the proof is there). Let d > g, so that D > 0 is certain, and let
 //! q = −n/d exactly. With τ = −N/D,
 //!
 //! > |τ − q| = |N/D − n/d| = |(N − n) + n/d·(d − D)| / D ≤ (e + |q|·g)/(d − g).
@@ -18,7 +17,7 @@
 //!
 //! The fraction has five roundings, the sums after it three, and the factor 1 + 2u is to be made up for; 1 + 2⁻⁴⁸ = 1 + 32u
 //! does all that (`paper/theory.tex` has it in detail); the product may
-//! underflow and lose η/2 ≤ u·e, because e ≥ T ([`Approx::error`]); d − g is a difference of doubles and does not
+//! underflow and lose η/2 ≤ u·e, because e ≥ T; d − g is a difference of doubles and does not
 //! underflow; the quotient may, and loses η/2, which the last T covers together with that of q̂. Overflow makes w infinite
 //! or NaN, and then no comparison is decided by it.
 //!
@@ -31,11 +30,11 @@
 //! q̂_B − q̂_A > (w_A + w_B)(1 + 2⁻⁵⁰) in floats implies τ_A < τ_B: the left side is at most (1 + u) times its exact value,
 //! the right side at least (1 + 2⁻⁵⁰)(1 − 2u) > 1 + u times w_A + w_B. NaN and infinity make it false.
 
-use super::filter::{Filter, LiftedTet};
+use super::filter::{Bounded, Filter, LiftedTet};
 use super::motion::Motion;
 use super::time::{ExactTimes, FlipTimes, Quotient, Timed, Timing, Undecided, same_vertices};
 use crate::mesh::VertexId;
-use crate::number::{Approx, Dyadic, Number, Sign};
+use crate::number::{Dyadic, Sign};
 use crate::predicate::PointStore;
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -187,13 +186,17 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
     #[inline]
     fn time_across(
         &mut self,
-        lift: &mut LiftedTet,
+        lift: &LiftedTet,
         circuit: [VertexId; 5],
+        is_wanted: impl FnOnce([Option<Sign>; 3]) -> bool,
     ) -> Option<Timing<Enclosure, FilteredTime>> {
-        let evaluated = self.filter.evaluate_across(lift, circuit[4])?;
-        if evaluated.d.sign() != Some(Sign::Positive) {
+        let across = self.filter.across(lift, circuit[4])?;
+        let signs = self.filter.signs(lift, &across, circuit);
+        if !is_wanted(signs) {
+            return None;
+        }
+        if !across.d.is_positive() {
             let quotient = self.exact.exact_quotient(circuit)?;
-            let (signs, _) = self.filter.signs(lift, circuit);
             let (middle, width) = (0.0, f32::INFINITY);
             return Some(Timing {
                 key: Enclosure { middle, width },
@@ -201,21 +204,29 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
                 signs,
             });
         }
-        let (signs, coefficients) = self.filter.signs(lift, circuit);
-        let time = match evaluated.integers.zip(coefficients) {
+        let n = self.filter.resting(lift, &across);
+        let quotient = self.filter.integers(lift, &across, &n);
+        let integers =
+            quotient.and_then(|q| Some((q, self.filter.coefficients(lift, &across, circuit)?)));
+        let time = match integers {
             Some((quotient, c)) => {
                 let integers = self.integers(circuit, quotient, c);
                 self.keep(integers)
             }
             None => FilteredTime::default(),
         };
-        let (middle, width) = enclosure(&evaluated.n, &evaluated.d);
+        let (middle, width) = enclosure(&n, &across.d);
         let scale = *self.scale.get_or_insert_with(|| inverse_power(middle));
         let key = Enclosure {
             middle: middle * scale,
             width: ((width * scale) as f32).next_up(),
         };
         Some(Timing { key, time, signs })
+    }
+
+    #[inline]
+    fn about(key: Enclosure) -> Option<f64> {
+        Some(key.middle)
     }
 
     #[inline]
@@ -266,10 +277,11 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
 
 /// The middle and the half width of an interval that contains −N/D, for D certainly positive.
 #[inline]
-fn enclosure(n: &Approx, d: &Approx) -> (f64, f64) {
-    let (e, g) = (n.error(), d.error());
-    let middle = -n.value() / d.value();
-    let slope = (e + (middle.abs() + f64::MIN_POSITIVE) * g) / (d.value() - g);
+fn enclosure(n: &Bounded, d: &Bounded) -> (f64, f64) {
+    // e is at least T: the product below may underflow.
+    let (e, g) = (n.error.max(f64::MIN_POSITIVE), d.error);
+    let middle = -n.value / d.value;
+    let slope = (e + (middle.abs() + f64::MIN_POSITIVE) * g) / (d.value - g);
     let width =
         slope * (1.0 + 16.0 * f64::EPSILON) + middle.abs() * f64::EPSILON + f64::MIN_POSITIVE;
     (middle, width)
@@ -284,6 +296,7 @@ fn inverse_power(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Number;
     use crate::predicate::{DoublePoints, formula};
     use crate::recover::flips::event::Event;
     use num_rational::BigRational;

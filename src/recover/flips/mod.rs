@@ -211,9 +211,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             .crossing_triangles(self.mesh, self.sides)
             .chunk_by(|a, b| a.tet() == b.tet())
         {
-            let mut lift = self.times.lift(self.mesh.vertices(corners[0].tet()));
+            let lift = self.times.lift(self.mesh.vertices(corners[0].tet()));
             for &s in corners {
-                self.certify(s, &mut lift, &mut Edges::new());
+                self.certify(s, &lift, &mut Edges::new());
             }
         }
         let mut outcome = FlipOutcome::Done;
@@ -276,21 +276,20 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     /// when it changes, then by a flip that puts a new tetrahedron at the edge. A triangle between that one and an old
     /// one is then certified; if there is none the whole star is new, and inside of a 2-3 flip, whose circuit has been
     /// flipped already. The paper queues more, and so do we with rounded times.
-    fn certify(&mut self, s: Corner, lift: &mut C::Lift, done: &mut Edges) {
+    fn certify(&mut self, s: Corner, lift: &C::Lift, done: &mut Edges) {
         let circuit = event::circuit(self.mesh, s);
-        let Some(timing) = self.times.time_across(lift, circuit) else {
+        let (mesh, points) = (&*self.mesh, self.sides.points());
+        let mut edge = None;
+        let is_wanted = |signs| {
+            let flip = flip_of_triangle(points, mesh, s, signs);
+            edge = flip.as_ref().and_then(Flip::edge);
+            flip.is_some() && edge.is_none_or(|edge| !done.contains(&edge))
+        };
+        let Some(timing) = self.times.time_across(lift, circuit, is_wanted) else {
             return;
         };
+        done.extend(edge);
         let signs = timing.signs;
-        if C::EXACT {
-            let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs);
-            match flip.map(|flip| flip.edge()) {
-                Some(Some(edge)) if done.contains(&edge) => return,
-                Some(Some(edge)) => done.push(edge),
-                Some(None) => {}
-                None => return,
-            }
-        }
         let event = Event {
             circuit,
             tet: s.tet(),
@@ -309,15 +308,18 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         let two_flips = created.len() == 4;
         let mut done = Edges::new();
         for &t in created {
-            let mut lift = None;
-            for slot in 0..4 {
-                let s = t.corner(slot);
-                let n = self.mesh.neighbor(s);
-                let boundary = !created.contains(&n) || (two_flips && s < self.mesh.twin(s));
-                if boundary && self.sides.crosses(&self.mesh.facet(s)) && self.region.get(n.index())
-                {
-                    let lift = lift.get_or_insert_with(|| self.times.lift(self.mesh.vertices(t)));
-                    self.certify(s, lift, &mut done);
+            let crossing = self.sides.crossing_facets(&self.mesh.vertices(t));
+            let corners = (0..4).filter(|slot| crossing[*slot]).map(|s| t.corner(s));
+            let is_boundary = |&s: &Corner| {
+                let twin = self.mesh.twin(s);
+                let outer = !created.contains(&twin.tet()) || (two_flips && s < twin);
+                outer && self.region.get(twin.tet().index())
+            };
+            let corners: ArrayVec<Corner, 4> = corners.filter(is_boundary).collect();
+            if !corners.is_empty() {
+                let lift = self.times.lift(self.mesh.vertices(t));
+                for s in corners {
+                    self.certify(s, &lift, &mut done);
                 }
             }
         }

@@ -94,14 +94,16 @@ pub fn flip_of_triangle<P: PointStore>(
     let w = mesh.apex_across(c);
     let circuit = [v, x, y, z, w];
     let sign = |i: usize| -points.orient3d(around_new_edge(circuit)[i]);
-    let signs = [0, 1, 2].map(|i| signs[i].unwrap_or_else(|| sign(i)));
-    let mut not_inside = (0..3).filter(|&i| !signs[i].is_negative());
-    let Some(i) = not_inside.next() else {
-        return Some(Flip::TwoThree([t1, t2], circuit));
+    let known = |i: usize| signs[i].unwrap_or_else(|| sign(i));
+    let signs = [known(0), known(1), known(2)];
+    let not_inside = |i: usize| !signs[i].is_negative();
+    let i = match (not_inside(0), not_inside(1), not_inside(2)) {
+        (false, false, false) => return Some(Flip::TwoThree([t1, t2], circuit)),
+        (true, false, false) => 0,
+        (false, true, false) => 1,
+        (false, false, true) => 2,
+        _ => return None,
     };
-    if not_inside.next().is_some() {
-        return None;
-    }
     // The edge pq that is not passed inside, and the third vertex of the triangle.
     let r = [x, y, z][i];
     let [p, q] = [[y, z], [z, x], [x, y]][i];

@@ -1,23 +1,31 @@
 //! The priority queue of flips, whose order is asked from a [`FlipTimes`], so that a comparison may use the point store
 //! and compute what it needs. What is moved around is keys and the numbers of events; the events stay where they are.
 //!
-//! Three parts: events in the far future are on a *pile*, which is read from front to back; those before the *horizon*, the
-//! time of some event, were taken from the pile in one go and sorted, a *run*; those that were queued since, and are not
-//! after the horizon, are in a binary heap. So most events are sorted, not sifted, and the heap stays small.
+//! Times only go forward, so that the far future need not be in order yet. It is divided into *spans*, each of which begins
+//! at the time of some event. When its turn comes, a span is divided further, if it is long, or else sorted: that is a *run*,
+//! and the beginning of the next span is the *horizon*. Events queued since that are not after the horizon are in a binary
+//! heap; it stays small, and most events are sorted with their span, not sifted.
 //!
-//! An event is on the pile only if its key says for certain that it comes after the horizon, and one leaves the run or the
-//! heap only if its key says for certain that it comes before; else the horizon moves on. So the order is that of one heap.
+//! An event is put into a span only if its key says for certain that it comes after the beginning, and the beginnings are in
+//! order for certain, so that it also comes after those of all earlier spans; and one leaves the
+//! run or the heap only if its key says for certain that it comes before the horizon; else the horizon moves on. So the
+//! order is that of one heap.
 
 use super::event::Event;
 use super::time::{FlipTimes, Timing};
 use std::cmp::Ordering;
 
-/// A pile of at most so many events is sorted as a whole, and that is the end of the pile.
-const SMALL_PILE: usize = 500;
+/// A span of at most so many events is not divided further.
+const SHORT_SPAN: usize = 400;
 
-/// How many keys of the pile are looked at to choose a horizon: the third of them has a fraction of 3/17 of the pile before
-/// it on average.
-const SAMPLES: usize = 16;
+/// About how many events a span is to have.
+const SPAN: usize = 200;
+
+/// Into how many spans one is divided at most.
+const MOST_SPANS: usize = 64;
+
+/// How many keys are looked at for each span to choose where it begins.
+const SAMPLES: usize = 4;
 
 /// Events, the earliest first or the latest first.
 pub struct FlipQueue<C: FlipTimes> {
@@ -28,23 +36,18 @@ pub struct FlipQueue<C: FlipTimes> {
     /// Places in `events` to be used again.
     free: Vec<u32>,
     latest_first: bool,
-    /// Events after the horizon.
-    pile: Vec<(C::Key, Queued<C::Time>)>,
-    horizon: Horizon<C::Key>,
+    /// What comes after the run and the heap: the last span comes first.
+    spans: Vec<Span<C::Key>>,
     /// How many events have ever been queued.
     arrived: u32,
     comparisons: u64,
 }
 
-/// The time that separates the run and the heap from the pile.
-#[derive(Clone, Copy)]
-enum Horizon<K> {
-    /// Before the first event is asked for: all are on the pile.
-    Unknown,
-    /// The key of some event.
-    At(K),
-    /// Nothing is on the pile, nor ever will be.
-    Infinite,
+/// Events in the future.
+struct Span<K> {
+    /// All come after the event with this key, for certain; `None` before any event has been asked for.
+    beginning: Option<K>,
+    entries: Vec<Entry<K>>,
 }
 
 #[derive(Clone, Copy)]
@@ -69,8 +72,10 @@ impl<C: FlipTimes> FlipQueue<C> {
             events: Vec::new(),
             free: Vec::new(),
             latest_first: false,
-            pile: Vec::new(),
-            horizon: Horizon::Unknown,
+            spans: vec![Span {
+                beginning: None,
+                entries: Vec::new(),
+            }],
             arrived: 0,
             comparisons: 0,
         }
@@ -102,12 +107,13 @@ impl<C: FlipTimes> FlipQueue<C> {
             arrival: self.arrived,
         };
         self.arrived = self.arrived.checked_add(1).expect("fewer than 2^32 events");
-        if self.is_beyond_horizon(timing.key) {
-            self.pile.push((timing.key, queued));
-        } else {
-            let entry = self.keep(timing.key, queued);
-            self.heap.push(entry);
-            self.sift_up(times, self.heap.len() - 1, entry);
+        let entry = self.keep(timing.key, queued);
+        match self.latest_span_of(timing.key, 0) {
+            Some(span) => self.spans[span].entries.push(entry),
+            None => {
+                self.heap.push(entry);
+                self.sift_up(times, self.heap.len() - 1, entry);
+            }
         }
     }
 
@@ -126,65 +132,113 @@ impl<C: FlipTimes> FlipQueue<C> {
         Entry { key, event: place }
     }
 
-    /// Whether a key comes after the horizon for certain.
+    /// Whether a key comes after (or before, for `Less`) another one for certain.
     #[inline]
-    fn is_beyond_horizon(&mut self, key: C::Key) -> bool {
-        let horizon = match self.horizon {
-            Horizon::Unknown => return true,
-            Horizon::At(key) => key,
-            Horizon::Infinite => return false,
-        };
+    fn is_certain(&mut self, key: C::Key, order: Ordering, other: C::Key) -> bool {
         self.comparisons += 1;
-        let beyond = if self.latest_first {
-            Ordering::Less
+        let order = if self.latest_first {
+            order.reverse()
         } else {
-            Ordering::Greater
+            order
         };
-        C::compare_keys(key, horizon) == Some(beyond)
+        C::compare_keys(key, other) == Some(order)
     }
 
-    /// Whether a key comes before the horizon for certain.
+    /// The latest of the spans from `first` on that a key belongs to for certain.
     #[inline]
-    fn is_before_horizon(&mut self, key: C::Key) -> bool {
-        let horizon = match self.horizon {
-            Horizon::Unknown => return false,
-            Horizon::At(key) => key,
-            Horizon::Infinite => return true,
-        };
-        self.comparisons += 1;
-        let before = if self.latest_first {
-            Ordering::Greater
-        } else {
-            Ordering::Less
-        };
-        C::compare_keys(key, horizon) == Some(before)
+    fn latest_span_of(&mut self, key: C::Key, first: usize) -> Option<usize> {
+        // Any span will do after whose beginning the key comes, so it does not matter if certainty is not monotonous.
+        let (mut low, mut high) = (first, self.spans.len());
+        let mut found = None;
+        while low < high {
+            let middle = (low + high) / 2;
+            let after = match self.spans[middle].beginning {
+                None => true,
+                Some(beginning) => self.is_certain(key, Ordering::Greater, beginning),
+            };
+            if after {
+                found = Some(middle);
+                high = middle;
+            } else {
+                low = middle + 1;
+            }
+        }
+        found
     }
 
-    /// Moves the horizon until the first event of the run and the heap is before it, or the pile is empty.
+    /// Makes a run of the next span, until the first event of the run and the heap comes before the next one.
     fn move_horizon(&mut self, times: &mut C) {
-        while !self.pile.is_empty() {
-            // Both must be: which of them is first may take an exact comparison.
+        while let Some(next) = self.spans.last() {
+            // Both must come before: which of them is first may take an exact comparison.
             let first = [self.run.last().copied(), self.heap.first().copied()];
             let mut first = first.into_iter().flatten().peekable();
-            if first.peek().is_some() && first.all(|entry| self.is_before_horizon(entry.key)) {
+            if let Some(horizon) = next.beginning
+                && first.peek().is_some()
+                && first.all(|entry| self.is_certain(entry.key, Ordering::Less, horizon))
+            {
                 return;
             }
-            self.horizon = if self.pile.len() <= SMALL_PILE {
-                Horizon::Infinite
-            } else {
-                Horizon::At(self.early_key())
-            };
-            let mut later = Vec::new();
-            for (key, queued) in std::mem::take(&mut self.pile) {
-                if self.is_beyond_horizon(key) {
-                    later.push((key, queued));
-                } else {
-                    let entry = self.keep(key, queued);
-                    self.run.push(entry);
-                }
+            let next = self.spans.pop().expect("there is one");
+            if next.entries.len() <= SHORT_SPAN || !self.divide(&next) {
+                self.run.extend(next.entries);
+                self.sort_run(times);
             }
-            self.pile = later;
-            let mut run = std::mem::take(&mut self.run);
+        }
+    }
+
+    /// Divides a span, if that is possible.
+    fn divide(&mut self, span: &Span<C::Key>) -> bool {
+        let n = span.entries.len();
+        let spans = (n / SPAN).min(MOST_SPANS);
+        let samples = span.entries.iter().step_by(n / (SAMPLES * spans));
+        let mut samples: Vec<(f64, C::Key)> = samples
+            .filter_map(|entry| Some((C::about(entry.key)?, entry.key)))
+            .collect();
+        samples.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        if self.latest_first {
+            samples.reverse();
+        }
+        // What is in a span must come after the beginnings of all earlier ones, too: they are in order for certain.
+        let next = self.spans.last().and_then(|span| span.beginning);
+        let mut beginnings: Vec<C::Key> = Vec::new();
+        for &(_, key) in samples.iter().skip(SAMPLES / 2).step_by(SAMPLES) {
+            let last = beginnings.last().copied();
+            if last.is_none_or(|last| self.is_certain(key, Ordering::Greater, last))
+                && next.is_none_or(|next| self.is_certain(key, Ordering::Less, next))
+            {
+                beginnings.push(key);
+            }
+        }
+        let first = self.spans.len();
+        let entries = || Vec::with_capacity(2 * SPAN);
+        self.spans
+            .extend(beginnings.into_iter().rev().map(|key| Span {
+                beginning: Some(key),
+                entries: entries(),
+            }));
+        let mut rest = Vec::new();
+        for &entry in &span.entries {
+            match self.latest_span_of(entry.key, first) {
+                Some(span) => self.spans[span].entries.push(entry),
+                None => rest.push(entry),
+            }
+        }
+        let is_divided = rest.len() < n;
+        if is_divided {
+            self.spans.push(Span {
+                beginning: span.beginning,
+                entries: rest,
+            });
+        } else {
+            self.spans.truncate(first);
+        }
+        is_divided
+    }
+
+    /// Sorts the run.
+    fn sort_run(&mut self, times: &mut C) {
+        let mut run = std::mem::take(&mut self.run);
+        if !self.sort_nearly_right(times, &mut run) {
             run.sort_unstable_by(|&a, &b| {
                 if self.precedes(times, a, b) {
                     Ordering::Greater
@@ -192,33 +246,39 @@ impl<C: FlipTimes> FlipQueue<C> {
                     Ordering::Less
                 }
             });
-            self.run = run;
         }
+        self.run = run;
     }
 
-    /// An early key of the pile: the third of some samples. Any key is right; an event is never beyond itself.
-    fn early_key(&self) -> C::Key {
-        let step = self.pile.len().div_ceil(SAMPLES);
-        let first_if_known = |a: C::Key, b: C::Key| match C::compare_keys(a, b) {
-            Some(Ordering::Less) => !self.latest_first,
-            Some(_) => self.latest_first,
-            None => false,
-        };
-        let mut earliest: [Option<C::Key>; 3] = [None; 3];
-        for mut key in self.pile.iter().step_by(step).map(|p| p.0) {
-            for place in &mut earliest {
-                match place {
-                    Some(known) if !first_if_known(key, *known) => {}
-                    Some(known) => std::mem::swap(known, &mut key),
-                    None => {
-                        *place = Some(key);
-                        break;
-                    }
-                }
+    /// Sorts a run by what its times are about, if that is known, and moves what is not in its place then. Gives up where
+    /// that is too much, and says so.
+    fn sort_nearly_right(&mut self, times: &mut C, run: &mut [Entry<C::Key>]) -> bool {
+        let about = |entry: &Entry<C::Key>| C::about(entry.key);
+        if run.first().is_some_and(|first| about(first).is_none()) {
+            return false;
+        }
+        run.sort_unstable_by(|a, b| {
+            let (a, b) = (about(a).unwrap_or(0.0), about(b).unwrap_or(0.0));
+            b.total_cmp(&a)
+        });
+        if self.latest_first {
+            run.reverse();
+        }
+        let mut moves = 0;
+        for i in 1..run.len() {
+            let entry = run[i];
+            let mut hole = i;
+            while hole > 0 && self.precedes(times, run[hole - 1], entry) {
+                run[hole] = run[hole - 1];
+                hole -= 1;
+            }
+            run[hole] = entry;
+            moves += i - hole;
+            if moves > run.len() {
+                return false;
             }
         }
-        let last = earliest.into_iter().flatten().next_back();
-        last.expect("the pile is not empty")
+        true
     }
 
     /// Removes the first event.
@@ -306,6 +366,7 @@ mod tests {
     use super::super::time::{Timed, Undecided};
     use super::*;
     use crate::mesh::{TetId, VertexId};
+    use crate::number::Sign;
 
     /// Times that are plain integers.
     struct Integers;
@@ -316,8 +377,16 @@ mod tests {
         const EXACT: bool = true;
         type Lift = ();
         fn lift(&mut self, _: [VertexId; 4]) {}
-        fn time_across(&mut self, (): &mut (), _: [VertexId; 5]) -> Option<Timing<i32, ()>> {
+        fn time_across(
+            &mut self,
+            (): &(),
+            _: [VertexId; 5],
+            _: impl FnOnce([Option<Sign>; 3]) -> bool,
+        ) -> Option<Timing<i32, ()>> {
             None
+        }
+        fn about(key: i32) -> Option<f64> {
+            Some(f64::from(key / 5))
         }
         fn compare_keys(a: i32, b: i32) -> Option<Ordering> {
             Some(a.cmp(&b)).filter(|o| o.is_ne())

@@ -4,7 +4,7 @@ use super::filter::{Filter, LiftedTet};
 use super::motion::{Motion, Rates};
 use super::time::{FlipTimes, Timed, Timing, Undecided};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Float, Number, Sign};
+use crate::number::{Dyadic, Exact, Float, Sign};
 use crate::predicate::PointStore;
 use std::cmp::Ordering;
 
@@ -42,19 +42,18 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
 
     /// N and D, if D > 0.
     #[inline]
-    fn positive(&mut self, lift: &mut LiftedTet, circuit: [VertexId; 5]) -> Option<(N, N)> {
+    fn positive(&mut self, lift: &LiftedTet, circuit: [VertexId; 5]) -> Option<(N, N)> {
         if self.naive {
             let (n, d) = self.rates.evaluate(circuit);
             return (d.sign() == Some(Sign::Positive)).then_some((n, d));
         }
-        let evaluated = self.filter.evaluate_across(lift, circuit[4])?;
-        if evaluated.d.sign() != Some(Sign::Positive)
-            && !self.exact.evaluate(circuit).1.exact_sign().is_positive()
-        {
+        let across = self.filter.across(lift, circuit[4])?;
+        if !across.d.is_positive() && !self.exact.evaluate(circuit).1.exact_sign().is_positive() {
             return None;
         }
         // The filter's values are what plain doubles give: the same operations in the same order, the origin apart.
-        let computed = N::computed(evaluated.n.value()).zip(N::computed(evaluated.d.value()));
+        let n = self.filter.resting(lift, &across);
+        let computed = N::computed(n.value).zip(N::computed(across.d.value));
         Some(computed.unwrap_or_else(|| self.rates.evaluate(circuit)))
     }
 }
@@ -74,8 +73,9 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
     #[inline]
     fn time_across(
         &mut self,
-        lift: &mut LiftedTet,
+        lift: &LiftedTet,
         circuit: [VertexId; 5],
+        _: impl FnOnce([Option<Sign>; 3]) -> bool,
     ) -> Option<Timing<f64, N>> {
         let (n, d) = self.positive(lift, circuit)?;
         let Some(time) = N::negated_quotient(&n, &d) else {
@@ -88,6 +88,11 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
             // What is possible is asked when the time has come.
             signs: [None; 3],
         })
+    }
+
+    #[inline]
+    fn about(key: f64) -> Option<f64> {
+        Some(key)
     }
 
     #[inline]

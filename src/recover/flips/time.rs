@@ -41,8 +41,8 @@ pub trait FlipTimes {
     /// number type cannot hold the time.
     fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<Self::Key, Self::Time>> {
         let [v, x, y, z, _] = circuit;
-        let mut lift = self.lift([v, x, y, z]);
-        self.time_across(&mut lift, circuit)
+        let lift = self.lift([v, x, y, z]);
+        self.time_across(&lift, circuit, |_| true)
     }
 
     /// What the times of a tetrahedron's facets have in common.
@@ -51,12 +51,17 @@ pub trait FlipTimes {
     /// Prepares [`FlipTimes::time_across`] for the facets of a tetrahedron.
     fn lift(&mut self, tet: [VertexId; 4]) -> Self::Lift;
 
-    /// The time of a triangle of the lifted tetrahedron, vxyz up to an even permutation.
+    /// The time of a triangle of the lifted tetrahedron, vxyz up to an even permutation. Exact orders ask, before they
+    /// compute the quotient, whether the time is of interest, given the signs of c_x, c_y, c_z where they are known.
     fn time_across(
         &mut self,
-        lift: &mut Self::Lift,
+        lift: &Self::Lift,
         circuit: [VertexId; 5],
+        is_wanted: impl FnOnce([Option<Sign>; 3]) -> bool,
     ) -> Option<Timing<Self::Key, Self::Time>>;
+
+    /// About when a time is, to sort by before comparing; `None` if keys do not tell.
+    fn about(key: Self::Key) -> Option<f64>;
 
     /// Which of two times comes first, as far as the keys tell.
     fn compare_keys(a: Self::Key, b: Self::Key) -> Option<Ordering>;
@@ -141,7 +146,9 @@ impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
 
     /// N and D, if D > 0: the sign of D is found in floats if they are certain of it.
     pub fn quotient(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
-        self.filter.evaluate(circuit)?;
+        let [v, x, y, z, w] = circuit;
+        let lift = self.filter.lift([v, x, y, z]);
+        self.filter.across(&lift, w)?;
         self.exact_quotient(circuit)
     }
 
@@ -224,17 +231,25 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
 
     fn time_across(
         &mut self,
-        lift: &mut LiftedTet,
+        lift: &LiftedTet,
         circuit: [VertexId; 5],
+        is_wanted: impl FnOnce([Option<Sign>; 3]) -> bool,
     ) -> Option<Timing<(), Quotient<N>>> {
-        self.filter.evaluate_across(lift, circuit[4])?;
+        let across = self.filter.across(lift, circuit[4])?;
+        let signs = self.filter.signs(lift, &across, circuit);
+        if !is_wanted(signs) {
+            return None;
+        }
         let time = self.exact_quotient(circuit)?;
-        let (signs, _) = self.filter.signs(lift, circuit);
         Some(Timing {
             key: (),
             time,
             signs,
         })
+    }
+
+    fn about((): ()) -> Option<f64> {
+        None
     }
 
     fn compare_keys((): (), (): ()) -> Option<Ordering> {

@@ -5,7 +5,7 @@ use super::motion::Motion;
 use super::rounded::RoundedTimes;
 use super::time::{FlipTimes, Timed, Timing, Undecided};
 use crate::mesh::VertexId;
-use crate::number::{Bits, Dyadic, Wide, WidthTask};
+use crate::number::{Bits, Dyadic, Sign, Wide, WidthTask};
 use crate::predicate::PointStore;
 use std::cmp::Ordering;
 
@@ -68,12 +68,21 @@ impl FlipTimes for WideTimes<'_> {
 
     fn lift(&mut self, _: [VertexId; 4]) {}
 
-    fn time_across(&mut self, (): &mut (), circuit: [VertexId; 5]) -> Option<Timing<(), Dyadic>> {
+    fn time_across(
+        &mut self,
+        (): &(),
+        circuit: [VertexId; 5],
+        _: impl FnOnce([Option<Sign>; 3]) -> bool,
+    ) -> Option<Timing<(), Dyadic>> {
         self.0.time(circuit).map(|time| Timing {
             key: (),
             time,
             signs: [None; 3],
         })
+    }
+
+    fn about((): ()) -> Option<f64> {
+        None
     }
 
     fn compare_keys((): (), (): ()) -> Option<Ordering> {
