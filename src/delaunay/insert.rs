@@ -70,6 +70,12 @@ impl Delaunay {
         &self.scratch.conflict
     }
 
+    /// Whether a tetrahedron is in that conflict zone.
+    #[inline]
+    pub fn is_in_conflict(&self, t: TetId) -> bool {
+        self.scratch.verdict(t) == Some(true)
+    }
+
     /// The facets between that conflict zone and the rest, as corners of tetrahedra in the zone.
     pub fn conflict_boundary(&self) -> &[Corner] {
         &self.scratch.boundary

@@ -25,3 +25,4 @@ pub mod side;
 mod sight;
 pub mod split;
 pub mod subsegments;
+mod turn;

@@ -21,6 +21,7 @@
 use super::scout::{Scouted, crossed_by, scout};
 use super::split::{self, Reference, Subsegment, split_parameter};
 use super::subsegments::key;
+use super::turn::inner_edges;
 pub use super::subsegments::{SegmentIndex, Subsegments};
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp, InvalidPlc};
@@ -68,6 +69,7 @@ pub fn recover_segments<P: PointStore>(
             index: &index,
             placement,
             missing: BinaryHeap::new(),
+            lost: Vec::new(),
             touched: None,
         };
         missing.iter().for_each(|&[a, b]| recovery.enqueue(a, b));
@@ -139,6 +141,7 @@ pub fn add_steiner_points<P: PointStore>(
         index,
         placement: Placement::ByRules,
         missing: BinaryHeap::new(),
+        lost: Vec::new(),
         touched: Some(FxHashSet::default()),
     };
     let requests = requests.iter();
@@ -191,6 +194,8 @@ pub(super) struct SegmentRecovery<'a, P> {
     pub(super) placement: Placement,
     /// Subsegments to look at, by the bits of their squared length, which are in the order of the lengths.
     missing: BinaryHeap<(u64, [VertexId; 2])>,
+    /// Memory used again.
+    lost: Vec<[VertexId; 2]>,
     /// The vertices whose stars have changed, if that is of interest.
     touched: Option<FxHashSet<VertexId>>,
 }
@@ -390,7 +395,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             return false;
         }
         self.delaunay.find_conflicts(self.points, v, start);
-        self.queue_endangered();
+        self.queue_lost();
         if let Some(touched) = &mut self.touched {
             let (mesh, zone) = (&self.delaunay.mesh, self.delaunay.conflicts());
             touched.extend(zone.iter().flat_map(|&t| mesh.vertices(t)));
@@ -402,18 +407,27 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         true
     }
 
-    /// Every subsegment among the edges of the conflict zone may be about to vanish.
-    fn queue_endangered(&mut self) {
-        let mesh = &self.delaunay.mesh;
-        let edges = self
-            .delaunay
-            .conflicts()
-            .iter()
-            .flat_map(|&t| edges_of(mesh, t));
-        let endangered = edges.filter(|&[a, b]| self.subsegments.segment_of(a, b).is_some());
-        for [a, b] in endangered.collect::<Vec<_>>() {
+    /// The subsegments among the edges inside the conflict zone are about to vanish. Others stay, and what is missing stays
+    /// missing, so that the queue holds the missing subsegments, each once.
+    fn queue_lost(&mut self) {
+        let mut lost = std::mem::take(&mut self.lost);
+        let delaunay = &self.delaunay;
+        inner_edges(
+            &delaunay.mesh,
+            delaunay.conflicts(),
+            |t| delaunay.is_in_conflict(t),
+            (),
+            |(), _| Some(()),
+            |[a, b], ()| {
+                if self.subsegments.segment_of(a, b).is_some() {
+                    lost.push([a, b]);
+                }
+            },
+        );
+        for [a, b] in lost.drain(..) {
             self.enqueue(a, b);
         }
+        self.lost = lost;
     }
 }
 
