@@ -14,6 +14,7 @@ mod harmless;
 mod judge;
 pub mod method;
 pub mod missing;
+mod obstruction;
 pub mod polygons;
 mod prune;
 pub mod region;

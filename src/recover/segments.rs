@@ -21,8 +21,8 @@
 use super::scout::{Scouted, crossed_by, scout};
 use super::split::{self, Reference, Subsegment, split_parameter};
 use super::subsegments::key;
-use super::turn::inner_edges;
 pub use super::subsegments::{SegmentIndex, Subsegments};
+use super::turn::inner_edges;
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp, InvalidPlc};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
