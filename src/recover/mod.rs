@@ -17,6 +17,7 @@ pub mod missing;
 mod obstruction;
 pub mod polygons;
 mod prune;
+mod reach;
 pub mod region;
 pub mod rounding;
 pub mod scout;
