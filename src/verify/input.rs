@@ -114,9 +114,7 @@ impl Input {
                 vertices.dedup();
                 let frame = frame(&points, &vertices);
                 let flat = frame.is_some_and(|[a, b, c]| {
-                    vertices
-                        .iter()
-                        .all(|&v| points.orient([a, b, c, v]).is_zero())
+                    vertices.iter().all(|&v| points.is_on_plane([a, b, c], v))
                 });
                 let bulge = frame.filter(|_| !flat).map_or(0.0, |f| {
                     vertices

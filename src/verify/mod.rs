@@ -24,11 +24,16 @@
 //! facets. [`VerifyOptions::tolerance`] says how far off they may be to count as on them; what they then have to satisfy
 //! is exact. The verdict counts how often this was needed. With tolerance 0 nothing is forgiven.
 
+mod accumulator;
 mod adjacency;
 mod cover;
 mod delaunay;
+mod distance;
 mod domain;
 mod facets;
+mod filter;
+mod fixed;
+mod formulas;
 mod hull;
 mod input;
 mod listed;
@@ -150,6 +155,8 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
     let mut tets = mesh.tets.clone();
     orientation::check(&points, &mut tets, &mut findings);
     let tables = Tables::new(tets, mesh.vertices.len());
+    let unused = input.site_of.iter().filter(|v| !tables.is_used(**v));
+    let singles = unused.chain(&input.holes).chain(&input.regions).copied();
     let case = Case {
         plc,
         mesh,
@@ -157,7 +164,7 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         points: &points,
         tables: &tables,
         input: &input,
-        locator: Locator::new(&points, &tables),
+        locator: Locator::new(&points, &tables, singles),
         tolerance: options.tolerance * ulp(points.largest()),
         rounding: VerifyOptions::default().tolerance * ulp(points.largest()),
     };

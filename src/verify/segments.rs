@@ -133,8 +133,7 @@ fn chain(
         let step = case
             .tables
             .neighbours(v)
-            .iter()
-            .copied()
+            .into_iter()
             .filter(|&w| may_use([v, w]) && order(v, w).is_lt())
             .filter(|&w| w == b || order(w, b).is_lt())
             .filter(|w| !tried.contains(w) && (*w == b || is_on(case, [a, b], *w)))
