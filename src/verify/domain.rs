@@ -14,7 +14,8 @@
 
 use super::facets::Cover;
 use super::segments::{self, Fate};
-use super::shells::{Cones, Shell, Shells};
+use super::shells::{Shell, Shells};
+use super::sums::Cones;
 use super::{Case, Domain, Findings, Violation, hull};
 use crate::number::{Dyadic, Exact, Number, Sign};
 use std::cmp::Ordering;
@@ -68,7 +69,7 @@ fn volume(case: &Case, findings: &mut Findings) {
     let mut boundary = Cones::new();
     for (_, face) in case.tables.boundary() {
         let [a, b, c] = case.tables.inward(face.sides[0]);
-        boundary.add(case, [a, c, b]);
+        boundary.add(case.points, [a, c, b]);
     }
     let boundary = boundary.volume();
     if findings.is_manifold() {

@@ -45,7 +45,9 @@ mod positions;
 mod regions;
 mod segments;
 mod shells;
+mod slabs;
 mod structure;
+mod sums;
 mod tables;
 mod verdict;
 mod vertices;
@@ -176,7 +178,7 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
     delaunay::check(
         &case,
         &cover.constrained,
-        |f| cover.facet_of.get(&f).copied(),
+        |f| cover.facet_of(f),
         &mut findings,
     );
     domain::check(&case, &fates, &cover, &mut findings);

@@ -317,6 +317,17 @@ impl Points {
         })
     }
 
+    /// The side of the line ab of a point that is known up to `slack`, if certain; all in the plane of two axes.
+    pub(super) fn quick_side2d(
+        &self,
+        line: [[f64; 2]; 2],
+        point: [f64; 2],
+        slack: f64,
+    ) -> Option<Sign> {
+        let sign = filter::side2d(line, std::iter::once(point), slack);
+        sign.filter(|_| self.shortcut)
+    }
+
     /// How a coordinate of the centroid of the points q (seven at most) compares with that of v.
     pub(super) fn compare(&self, axis: usize, q: &[VertexId], v: VertexId) -> Sign {
         let wobble = self.wobble(&[v]).max(self.wobble(q));

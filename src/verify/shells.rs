@@ -10,9 +10,9 @@
 //! the voids, one by one. O(n log n); exact numbers are needed only where more than two walls meet.
 
 use super::Case;
-use super::accumulator::Accumulator;
 use super::facets::OutsidePart;
 use super::planar::crossing;
+use super::sums::Cones;
 use super::tables::sorted2;
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Sign, Vec3};
@@ -84,41 +84,6 @@ pub(super) struct Shells {
     pub(super) shells: Vec<Shell>,
     /// Sorted.
     pub(super) contradictions: Vec<[VertexId; 2]>,
-}
-
-/// The sum of the signed volumes between the origin and triangles.
-pub(super) struct Cones {
-    /// Over triangles of doubles.
-    doubles: Accumulator,
-    /// Over the other ones.
-    others: Dyadic,
-}
-
-impl Cones {
-    /// None.
-    pub(super) fn new() -> Cones {
-        Cones {
-            doubles: Accumulator::new(),
-            others: Dyadic::ZERO,
-        }
-    }
-
-    /// Adds the cone over a triangle.
-    pub(super) fn add(&mut self, case: &Case, triangle: [VertexId; 3]) {
-        if triangle.iter().all(|&v| case.points.is_double(v)) {
-            let corners = triangle.map(|v| case.points.at(v));
-            self.doubles.add_determinant(corners);
-        } else {
-            let [a, b, c] = triangle.map(|v| case.points.exact(v));
-            self.others = self.others.clone() + &a.dot(&b.cross(&c));
-        }
-    }
-
-    /// Six times the sum; nothing is left.
-    pub(super) fn volume(&mut self) -> Dyadic {
-        let others = std::mem::replace(&mut self.others, Dyadic::ZERO);
-        self.doubles.take() + &others
-    }
 }
 
 impl Shells {
@@ -299,7 +264,7 @@ fn gather(case: &Case, all: &Walls, leader: &mut [Side]) -> Vec<Shell> {
                     [apex, b, a]
                 };
                 shell.triangles.push(triangle);
-                cones.add(case, triangle);
+                cones.add(case.points, triangle);
             }
         }
         shell.volume = cones.volume();
