@@ -4,7 +4,7 @@
 //! The number has a limb of 32 bits in each 64-bit word, so that 2³⁰ additions need no carry. A product is an integer of
 //! at most 159 bits times 2^e with e ≥ 3·(−1074), and below 2^(3·1024).
 
-use crate::number::{Dyadic, Number};
+use crate::number::{Dyadic, Number, Sign};
 
 /// The exponent of the lowest bit.
 const LOWEST: i64 = -3 * 1074;
@@ -99,6 +99,18 @@ impl Accumulator {
         self.additions = 0;
     }
 
+    /// The sign of the sum.
+    pub(super) fn sign(&mut self) -> Sign {
+        self.carry();
+        let limbs = &self.limbs[self.used.start.min(self.used.end)..self.used.end];
+        match limbs.iter().rev().find(|limb| **limb != 0) {
+            None => Sign::Zero,
+            // All limbs but the highest are positive.
+            Some(highest) if *highest < 0 => Sign::Negative,
+            Some(_) => Sign::Positive,
+        }
+    }
+
     /// The sum so far; zero is left.
     pub(super) fn take(&mut self) -> Dyadic {
         if self.used.is_empty() {
@@ -119,6 +131,7 @@ impl Accumulator {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Exact;
     use proptest::prelude::*;
 
     fn finite() -> impl Strategy<Value = f64> {
@@ -146,7 +159,9 @@ mod tests {
                 let [x, y, z] = p.map(Dyadic::from_f64);
                 theirs = theirs + &(x * &y * &z);
             }
+            prop_assert_eq!(ours.sign(), theirs.exact_sign());
             prop_assert_eq!(ours.take(), theirs);
+            prop_assert_eq!(ours.sign(), Sign::Zero);
         }
 
         #[test]

@@ -123,10 +123,7 @@ fn same_face(case: &Case, fates: &[Fate], group: &[(usize, usize)]) -> Option<us
         return None;
     };
     let whole = facet.edges.len() == 3 && facet.holes.is_empty();
-    let direct = facet
-        .edges
-        .iter()
-        .all(|&e| matches!(&fates[e], Fate::Chain(chain) if chain.len() == 2));
+    let direct = facet.edges.iter().all(|&e| fates[e] == Fate::Edge);
     case.tables.find_face([a, b, c]).filter(|_| whole && direct)
 }
 
@@ -198,9 +195,7 @@ impl<'a> Group<'a> {
         let mut on_chains: FxHashMap<VertexId, Vec<(usize, usize)>> = FxHashMap::default();
         for &f in &facets {
             for &e in &case.input.facets[f].edges {
-                if let Fate::Chain(chain) = &fates[e]
-                    && chain.len() > 2
-                {
+                if let Fate::Chain(chain) = &fates[e] {
                     for (i, &v) in chain.iter().enumerate() {
                         on_chains.entry(v).or_default().push((e, i));
                     }
@@ -474,20 +469,27 @@ impl<'a> Group<'a> {
             }
         }
         let points = self.case.points;
-        let mut covered = Areas::new(self.axes);
-        for [a, b, c] in keys() {
-            match points.orient2d(self.axes, [a, b, c]) {
-                Sign::Positive => covered.add(points, [a, b, c]),
-                Sign::Negative => covered.add(points, [a, c, b]),
-                Sign::Zero => {}
+        let cover = |sum: &mut Areas| {
+            for [a, b, c] in keys() {
+                match points.orient2d(self.axes, [a, b, c]) {
+                    Sign::Positive => sum.add(points, [a, b, c]),
+                    Sign::Negative => sum.add(points, [a, c, b]),
+                    Sign::Zero => {}
+                }
             }
+        };
+        let mut sum = Areas::new(self.axes);
+        cover(&mut sum);
+        self.areas.iter().for_each(|a| a.subtract_from(&mut sum));
+        if sum.sign().is_zero() {
+            return None;
         }
-        let covered = covered.twice();
-        let area = self
-            .areas
-            .iter()
-            .fold(Dyadic::ZERO, |sum, a| sum + &a.twice_area());
-        (covered != area).then(|| Misfit::Area(covered.to_f64() / 2.0, area.to_f64() / 2.0))
+        sum.take_twice();
+        cover(&mut sum);
+        let covered = sum.take_twice().to_f64();
+        let areas = self.areas.iter().map(Area::twice_area);
+        let area = areas.fold(Dyadic::ZERO, |sum, a| sum + &a).to_f64();
+        Some(Misfit::Area(covered / 2.0, area / 2.0))
     }
 
     /// Whether some vertex of the faces is not exactly on the plane, although the input vertices are.

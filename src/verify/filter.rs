@@ -144,12 +144,19 @@ pub(super) fn contains(
     point: [f64; 3],
     wobble: f64,
 ) -> Option<bool> {
-    let rows = tet.map(|p| minus(p, point));
+    let [a, b, c, d] = tet;
+    let rows = [
+        minus(a, point),
+        minus(b, point),
+        minus(c, point),
+        minus(d, point),
+    ];
     let bound = orient_bound(extent(&rows), wobble);
     let mut certain = true;
     for face in inward {
         // orient(face, point), with the point as the origin.
-        let side = -det3(face.map(|i| rows[i]));
+        let [i, j, k] = *face;
+        let side = -det3([rows[i], rows[j], rows[k]]);
         if side < -bound {
             return Some(false);
         }
@@ -165,7 +172,12 @@ const MINORS: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 #[inline(always)]
 pub(super) fn insphere([a, b, c, d, e]: [[f64; 3]; 5], wobble: f64) -> Option<Sign> {
     let q = [minus(a, e), minus(b, e), minus(c, e), minus(d, e)];
-    let lift = q.map(|x| dot(x, x));
+    let lift = [
+        dot(q[0], q[0]),
+        dot(q[1], q[1]),
+        dot(q[2], q[2]),
+        dot(q[3], q[3]),
+    ];
     // The six minors of two rows in x and y, and from them those of three.
     let xy = |i: usize, j: usize| q[i][0] * q[j][1] - q[j][0] * q[i][1];
     let (ab, ac, ad, bc, bd, cd) = (xy(0, 1), xy(0, 2), xy(0, 3), xy(1, 2), xy(1, 3), xy(2, 3));

@@ -212,11 +212,19 @@ impl Search {
         let mut stack = Vec::new();
         for (t, &tet) in tables.tets.iter().enumerate() {
             let wobble = points.wobble(&tet);
-            let p = tet.map(|v| points.at(v));
-            let [low, high] = [f64::min, f64::max].map(|choose: fn(f64, f64) -> f64| {
-                [0, 1, 2].map(|i| choose(choose(p[0][i], p[1][i]), choose(p[2][i], p[3][i])))
-            });
-            let [low, high] = [low.map(|x| x - wobble), high.map(|x| x + wobble)];
+            let mut low = points.at(tet[0]);
+            let mut high = low;
+            for v in &tet[1..] {
+                let p = points.at(*v);
+                for i in 0..3 {
+                    low[i] = if p[i] < low[i] { p[i] } else { low[i] };
+                    high[i] = if p[i] > high[i] { p[i] } else { high[i] };
+                }
+            }
+            for i in 0..3 {
+                low[i] -= wobble;
+                high[i] += wobble;
+            }
             stack.push(0);
             while let Some(n) = stack.pop() {
                 let node: &Node = &self.nodes[n as usize];

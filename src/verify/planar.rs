@@ -15,7 +15,7 @@ use super::slabs::{self, Slabs};
 use super::sums::Areas;
 use super::tables::sorted2;
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Sign};
+use crate::number::{Dyadic, Sign};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -275,11 +275,22 @@ impl<'a> Area<'a> {
         if let [a, b, c] = cycle {
             return self.points.orient2d(self.axes, [from(a), from(b), from(c)]);
         }
-        self.twice_area_of(cycle.iter().copied()).exact_sign()
+        let Some((&first, rest)) = cycle.split_first() else {
+            return Sign::Zero;
+        };
+        let origin = from(&first);
+        let corners = rest.iter().map(|&h| self.half_edges[h]);
+        self.points
+            .quick_area(self.axes, origin, corners)
+            .unwrap_or_else(|| {
+                let mut sum = Areas::new(self.axes);
+                self.add_areas(cycle.iter().copied(), &mut sum);
+                sum.sign()
+            })
     }
 
-    fn twice_area_of(&self, half_edges: impl Iterator<Item = usize>) -> Dyadic {
-        let mut sum = Areas::new(self.axes);
+    /// Adds the areas of the triangles between half-edges and one vertex.
+    fn add_areas(&self, half_edges: impl Iterator<Item = usize>, sum: &mut Areas) {
         if let Some(&[origin, _]) = self.half_edges.first() {
             for h in half_edges {
                 let [a, b] = self.half_edges[h];
@@ -288,7 +299,6 @@ impl<'a> Area<'a> {
                 }
             }
         }
-        sum.twice()
     }
 
     /// The positive cycles that contain the centroid of q, one of each component at most, in order of components.
@@ -372,7 +382,14 @@ impl<'a> Area<'a> {
 
     /// Twice the area, exactly.
     pub(super) fn twice_area(&self) -> Dyadic {
-        self.twice_area_of(self.boundary_half_edges())
+        let mut sum = Areas::new(self.axes);
+        self.add_areas(self.boundary_half_edges(), &mut sum);
+        sum.take_twice()
+    }
+
+    /// Adds the area with the other sign.
+    pub(super) fn subtract_from(&self, sum: &mut Areas) {
+        self.add_areas(self.boundary_half_edges().map(|h| h ^ 1), sum);
     }
 
     /// The directed edges with a bounded cell to their left, dangling ones included.

@@ -147,7 +147,8 @@ impl Points {
     #[inline]
     pub(super) fn orient(&self, t: [VertexId; 4]) -> Sign {
         let wobble = self.wobble(&t);
-        let p = t.map(|v| self.at(v));
+        // Not map(), which is not always inlined.
+        let p = [self.at(t[0]), self.at(t[1]), self.at(t[2]), self.at(t[3])];
         if self.shortcut
             && let Some(sign) = filter::orient(p, wobble)
         {
@@ -199,7 +200,8 @@ impl Points {
     #[inline]
     pub(super) fn insphere(&self, five: [VertexId; 5]) -> Sign {
         let wobble = self.wobble(&five);
-        let p = five.map(|v| self.at(v));
+        let [a, b, c, d, e] = five;
+        let p = [self.at(a), self.at(b), self.at(c), self.at(d), self.at(e)];
         if self.shortcut
             && let Some(sign) = filter::insphere(p, wobble)
         {
@@ -263,25 +265,24 @@ impl Points {
 
     /// Whether the closed positive tetrahedron contains the centroid of the points q (four at most), which is `centre` up
     /// to `slack`. `inward` are its faces.
+    #[inline]
     pub(super) fn contains(
         &self,
-        tet: [VertexId; 4],
+        t: [VertexId; 4],
         inward: &[[usize; 3]; 4],
         q: &[VertexId],
         (centre, slack): ([f64; 3], f64),
     ) -> bool {
-        let quickly = match self.shortcut {
-            true => {
-                let wobble = slack + self.wobble(&tet);
-                filter::contains(tet.map(|v| self.at(v)), inward, centre, wobble)
+        if self.shortcut {
+            let p = [self.at(t[0]), self.at(t[1]), self.at(t[2]), self.at(t[3])];
+            let wobble = slack + self.wobble(&t);
+            if let Some(contains) = filter::contains(p, inward, centre, wobble) {
+                return contains;
             }
-            false => None,
-        };
-        quickly.unwrap_or_else(|| {
-            inward
-                .iter()
-                .all(|face| !self.side(face.map(|k| tet[k]), q).is_negative())
-        })
+        }
+        inward
+            .iter()
+            .all(|face| !self.side(face.map(|k| t[k]), q).is_negative())
     }
 
     /// Twice the signed area of abc in the plane of the two axes, exactly.
@@ -315,6 +316,34 @@ impl Points {
                 _ => fixed::sign(self, &ids, &Side2d { axes }),
             }
         })
+    }
+
+    /// The sign of the area between a point and edges, if certain.
+    pub(super) fn quick_area(
+        &self,
+        axes: [usize; 2],
+        origin: VertexId,
+        edges: impl Iterator<Item = [VertexId; 2]>,
+    ) -> Option<Sign> {
+        if !self.shortcut {
+            return None;
+        }
+        let o = self.at(origin);
+        let mut sum = Permanent::default();
+        let mut n = 4;
+        for edge in edges {
+            if self.wobble(&edge) != 0.0 || self.wobble(&[origin]) != 0.0 {
+                return None;
+            }
+            let [p, q] = edge.map(|v| minus(self.at(v), o));
+            let (left, right) = (p[axes[0]] * q[axes[1]], p[axes[1]] * q[axes[0]]);
+            sum = sum.plus(Permanent {
+                value: left - right,
+                terms: left.abs() + right.abs(),
+            });
+            n += 1;
+        }
+        sum.sign(n)
     }
 
     /// The side of the line ab of a point that is known up to `slack`, if certain; all in the plane of two axes.

@@ -3,7 +3,7 @@
 use super::accumulator::Accumulator;
 use super::points::Points;
 use crate::mesh::VertexId;
-use crate::number::Dyadic;
+use crate::number::{Dyadic, Exact, Sign};
 
 /// The sum of the signed volumes between the origin and triangles.
 pub(super) struct Cones {
@@ -76,8 +76,19 @@ impl Areas {
         }
     }
 
-    /// Twice the sum.
-    pub(super) fn twice(&mut self) -> Dyadic {
-        self.doubles.take() + &self.others
+    /// The sign of the sum.
+    pub(super) fn sign(&mut self) -> Sign {
+        let others = self.others.exact_sign();
+        if others.is_zero() {
+            return self.doubles.sign();
+        }
+        self.others = self.take_twice();
+        self.others.exact_sign()
+    }
+
+    /// Twice the sum; nothing is left of it.
+    pub(super) fn take_twice(&mut self) -> Dyadic {
+        let others = std::mem::replace(&mut self.others, Dyadic::ZERO);
+        self.doubles.take() + &others
     }
 }

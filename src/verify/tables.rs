@@ -236,7 +236,7 @@ impl Tables {
 /// The vertices of a tetrahedron in increasing order, with their corners.
 #[inline]
 fn with_corners(tet: &[VertexId; 4]) -> [(VertexId, u8); 4] {
-    let mut sorted = [0, 1, 2, 3].map(|i: u8| (tet[usize::from(i)], i));
+    let mut sorted = [(tet[0], 0), (tet[1], 1), (tet[2], 2), (tet[3], 3)];
     for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
         if sorted[j].0 < sorted[i].0 {
             sorted.swap(i, j);
