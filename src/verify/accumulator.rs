@@ -5,6 +5,7 @@
 //! at most 159 bits times 2^e with e ≥ 3·(−1074), and below 2^(3·1024).
 
 use crate::number::{Dyadic, Number, Sign};
+use std::ops::Range;
 
 /// The exponent of the lowest bit.
 const LOWEST: i64 = -3 * 1074;
@@ -13,11 +14,17 @@ const LIMBS: usize = (3072 + 3222 + 64) / 32 + 6;
 /// How many additions the limbs hold for certain.
 const ADDITIONS: u32 = 1 << 30;
 
+/// No limbs, such that the least and the greatest of two ranges are those of both.
+const NONE: Range<usize> = Range {
+    start: LIMBS,
+    end: 0,
+};
+
 /// A sum.
 pub(super) struct Accumulator {
     limbs: Box<[i64; LIMBS]>,
     /// Limbs outside this range are zero.
-    used: std::ops::Range<usize>,
+    used: Range<usize>,
     additions: u32,
 }
 
@@ -36,7 +43,7 @@ impl Accumulator {
     pub(super) fn new() -> Accumulator {
         Accumulator {
             limbs: Box::new([0; LIMBS]),
-            used: LIMBS..0,
+            used: NONE,
             additions: 0,
         }
     }
@@ -77,8 +84,7 @@ impl Accumulator {
 
     /// Adds det[a, b, c].
     pub(super) fn add_determinant(&mut self, [a, b, c]: [[f64; 3]; 3]) {
-        for i in 0..3 {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
             self.add([a[i], b[j], c[k]]);
             self.add([-a[i], b[k], c[j]]);
         }
@@ -123,7 +129,7 @@ impl Accumulator {
         });
         let unit = LOWEST + 32 * self.used.start as i64;
         self.limbs[self.used.clone()].fill(0);
-        self.used = LIMBS..0;
+        self.used = NONE;
         sum.shifted(unit)
     }
 }

@@ -90,8 +90,7 @@ pub(super) fn det3([a, b, c]: [[f64; 3]; 3]) -> f64 {
 #[inline(always)]
 pub(super) fn det3_and_terms([a, b, c]: [[f64; 3]; 3]) -> Permanent {
     let mut terms = 0.0;
-    for i in 0..3 {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+    for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
         terms += a[i].abs() * ((b[j] * c[k]).abs() + (b[k] * c[j]).abs());
     }
     Permanent {

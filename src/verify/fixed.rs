@@ -107,10 +107,10 @@ fn in_words<F: Formula>(points: &[[Scaled; 3]], formula: &F) -> Option<Sign> {
     let bits = i64::from(F::DEGREE) * (top - unit) + i64::from(F::GROWTH) + 1;
     match bits {
         ..=128 => Some(evaluate::<F, 2>(points, unit, formula)),
-        ..=192 => Some(evaluate::<F, 3>(points, unit, formula)),
-        ..=320 => Some(evaluate::<F, 5>(points, unit, formula)),
-        ..=448 => Some(evaluate::<F, 7>(points, unit, formula)),
-        ..=640 => Some(evaluate::<F, 10>(points, unit, formula)),
+        129..=192 => Some(evaluate::<F, 3>(points, unit, formula)),
+        193..=320 => Some(evaluate::<F, 5>(points, unit, formula)),
+        321..=448 => Some(evaluate::<F, 7>(points, unit, formula)),
+        449..=640 => Some(evaluate::<F, 10>(points, unit, formula)),
         _ => None,
     }
 }
@@ -156,12 +156,14 @@ impl<const W: usize> Add<&Fixed<W>> for Fixed<W> {
     type Output = Fixed<W>;
     #[inline(always)]
     fn add(self, other: &Fixed<W>) -> Fixed<W> {
-        let mut words = [0; W];
+        let mut words = self.0;
         let mut carry = false;
-        for i in 0..W {
-            let (sum, over) = self.0[i].overflowing_add(other.0[i]);
+        for (word, &theirs) in words.iter_mut().zip(&other.0) {
+            let (sum, over) = word.overflowing_add(theirs);
             let (sum, more) = sum.overflowing_add(u64::from(carry));
-            (words[i], carry) = (sum, over | more);
+            // Not both.
+            carry = over != more;
+            *word = sum;
         }
         Fixed(words)
     }
@@ -171,12 +173,14 @@ impl<const W: usize> Sub<&Fixed<W>> for Fixed<W> {
     type Output = Fixed<W>;
     #[inline(always)]
     fn sub(self, other: &Fixed<W>) -> Fixed<W> {
-        let mut words = [0; W];
+        let mut words = self.0;
         let mut borrow = false;
-        for i in 0..W {
-            let (difference, under) = self.0[i].overflowing_sub(other.0[i]);
+        for (word, &theirs) in words.iter_mut().zip(&other.0) {
+            let (difference, under) = word.overflowing_sub(theirs);
             let (difference, more) = difference.overflowing_sub(u64::from(borrow));
-            (words[i], borrow) = (difference, under | more);
+            // Not both.
+            borrow = under != more;
+            *word = difference;
         }
         Fixed(words)
     }

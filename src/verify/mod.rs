@@ -138,7 +138,8 @@ impl Case<'_> {
 
 /// Checks that `mesh` is a constrained Delaunay tetrahedralization of `plc`, Steiner points permitted.
 ///
-/// O(n log n) for a mesh of n tetrahedra, plus what a facet with m edges costs for each of its faces, O(m).
+/// O(n log n) for a mesh of n tetrahedra, plus what a facet with m edges costs for each of its faces: O(k), where k of the
+/// edges are at the height of the face.
 pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict {
     let mut findings = Findings::new(options.cap);
     structure::check(plc, mesh, &mut findings);

@@ -58,9 +58,9 @@ impl Slabs {
         all.entries = vec![0; all.start[all.start.len() - 1] as usize];
         let mut next = all.start.clone();
         for (i, &[a, b]) in intervals.iter().enumerate() {
-            for s in all.slab(a)..=all.slab(b) {
-                all.entries[next[s] as usize] = i as u32;
-                next[s] += 1;
+            for place in &mut next[all.slab(a)..=all.slab(b)] {
+                all.entries[*place as usize] = i as u32;
+                *place += 1;
             }
         }
         all
