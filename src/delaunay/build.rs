@@ -27,6 +27,7 @@ pub fn delaunay<P: PointStore>(
     points: &P,
     vertices: &[VertexId],
 ) -> Result<Delaunay, DelaunayError> {
+    assert!(points.len() < 1 << 30, "fewer than 2^30 vertices");
     let order = insertion_order(points, vertices);
     // Work on a copy of the points in the order of insertion: neighbours in space are then neighbours in memory.
     let sorted = points.reordered(&order);

@@ -163,6 +163,8 @@ impl Delaunay {
     /// The first half of an insertion: the conflict zone of p, all tetrahedra whose circumsphere contains p, grown from
     /// `start`, one of them, breadth first. Read it with [`Delaunay::conflicts`].
     pub fn find_conflicts<P: PointStore>(&mut self, points: &P, p: VertexId, start: TetId) {
+        // As many as tetrahedra: two bits of the ids in the mesh are free for its marks.
+        assert!(p.0 < 1 << 30, "fewer than 2^30 vertices");
         self.scratch.conflict.clear();
         self.scratch.boundary.clear();
         self.join_conflicts(start);

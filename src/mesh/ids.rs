@@ -14,9 +14,7 @@ impl VertexId {
     /// The vertex with index `i`.
     #[inline]
     pub fn new(i: usize) -> VertexId {
-        // As for tetrahedra, so that two bits of an id are free.
-        assert!(i < 1 << 30, "fewer than 2^30 vertices");
-        VertexId(i as u32)
+        VertexId(u32::try_from(i).expect("fewer than 2^32 vertices"))
     }
 
     /// The index as a `usize`.

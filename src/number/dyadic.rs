@@ -49,6 +49,16 @@ impl Dyadic {
         quotient.to_f64()
     }
 
+    /// Whether it is negative, the bytes of the odd integer that is its absolute value but for a power of two, the least
+    /// significant first, and the exponent of that power.
+    pub(crate) fn parts(&self) -> (bool, Box<[u8]>, i64) {
+        let zeros = self.mantissa.trailing_zeros().unwrap_or(0);
+        let (sign, magnitude) = self.mantissa.clone().into_parts();
+        let odd = magnitude >> zeros;
+        let negative = sign == dashu_int::Sign::Negative;
+        (negative, odd.to_le_bytes(), self.exponent + zeros as i64)
+    }
+
     fn is_zero(&self) -> bool {
         self.mantissa == IBig::ZERO
     }

@@ -15,7 +15,7 @@ mod stages;
 mod store;
 
 pub use double_points::DoublePoints;
-pub use naive::{NaivePoints, RoundedSpheres};
+pub use naive::NaivePoints;
 pub use perturbation::perturbed_sign;
 pub use segment_point::{Parameter, Steiner};
 pub use store::PointStore;

@@ -42,13 +42,6 @@ fn sign<P: PointStore, N: Number, const K: usize>(
     formula(p.each_ref()).sign().unwrap_or(Sign::Zero)
 }
 
-/// A view of points whose in-sphere tests are rounded and trusted, and whose orientations are exact: for trials that decide
-/// nothing. A sign that is not known counts as outside.
-///
-/// A view does not grow, as [`NaivePoints`].
-#[derive(Debug)]
-pub struct RoundedSpheres<'a, P>(pub &'a P);
-
 const FIXED: &str = "a view of points does not change";
 
 impl<P: PointStore> PointStore for NaivePoints<'_, P> {
@@ -78,54 +71,6 @@ impl<P: PointStore> PointStore for NaivePoints<'_, P> {
 
     fn insphere(&self, v: [VertexId; 5]) -> Sign {
         self.insphere_unperturbed(v)
-    }
-
-    fn reordered(&self, _: &[VertexId]) -> Self {
-        unreachable!("{FIXED}")
-    }
-
-    fn push(&mut self, _: [f64; 3]) -> VertexId {
-        unreachable!("{FIXED}")
-    }
-
-    fn truncate(&mut self, _: usize) {
-        unreachable!("{FIXED}")
-    }
-
-    fn push_on_segment(&mut self, _: VertexId, _: VertexId, _: Parameter) -> VertexId {
-        unreachable!("{FIXED}")
-    }
-}
-
-impl<P: PointStore> PointStore for RoundedSpheres<'_, P> {
-    fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    fn rounded(&self, v: VertexId) -> [f64; 3] {
-        self.0.rounded(v)
-    }
-
-    fn coordinates<M: Number>(&self, v: VertexId) -> Vec3<M> {
-        self.0.coordinates(v)
-    }
-
-    fn identity(&self, v: VertexId) -> u32 {
-        self.0.identity(v)
-    }
-
-    fn orient3d(&self, v: [VertexId; 4]) -> Sign {
-        self.0.orient3d(v)
-    }
-
-    #[inline]
-    fn insphere_unperturbed(&self, [a, b, c, d, e]: [VertexId; 5]) -> Sign {
-        let at = |v| Vec3::<f64>(self.0.rounded(v));
-        let (a, b, c, d, e) = (at(a), at(b), at(c), at(d), at(e));
-        match formula::insphere([&a, &b, &c, &d, &e]) > 0.0 {
-            true => Sign::Positive,
-            false => Sign::Negative,
-        }
     }
 
     fn reordered(&self, _: &[VertexId]) -> Self {

@@ -239,7 +239,12 @@ mod tests {
         assert_eq!(counts.cavity_fallbacks, 1);
         assert_eq!((counts.gift_wrap_fallbacks, counts.flip_fallbacks), (1, 0));
         let (wrapped, counts) = square_without_displacing(Insertion::GiftWrap);
-        assert_eq!(counts, PolygonCounts::default());
+        let expected = PolygonCounts {
+            recovered: 2,
+            most_recovered: 2,
+            ..PolygonCounts::default()
+        };
+        assert_eq!(counts, expected, "nothing falls back");
         assert_eq!(cavity, wrapped);
         let mut scene = fins();
         let complex = scene.complex.clone();

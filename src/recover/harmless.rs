@@ -1,148 +1,129 @@
-//! Places for a Steiner point that destroy no other subsegment.
+//! Places for Steiner points that destroy few other subsegments.
 //!
 //! The place that the rules of [`super::split`] say is taken if it does no harm, that is, if no subsegment is lost in its
-//! conflict zone and both halves of the split one are edges afterwards. If it does, other places are tried: short dyadic
-//! fractions of the subsegment, the distances from the hub of the vertices around, and their projections. If all do harm,
-//! the rules prevail: the least harm now is not the least in the end, because a point in an odd place forces others into
-//! odd places.
+//! conflict zone and both halves of the split one are edges afterwards. If it does, all places that leave both halves are
+//! compared at once ([`super::reach`]): the ends of the intervals where some subsegment is lost divide them into cells. Of
+//! the cells in which the fewest are lost, the one nearest to the middle is taken, and in it a place with few bits.
+//! Very narrow cells count: between two segments that are close together there is often only one place that is level with
+//! the points of the other.
 //!
-//! All of this is a choice only: wherever the point is put, recovery stays correct. So the trials are made with rounded
-//! points and spheres, and may err. The search ends because the effort is bounded ([`super::segments::Placement`]).
+//! All of this is a choice only: wherever the point is put, recovery stays correct. So floats do. The search ends because
+//! the effort is bounded ([`super::segments::Placement`]).
 
-use super::scout::crossed_by;
-use super::segments::{Placement, SegmentRecovery, edges_of};
-use super::split::{Subsegment, distance, dot, fewest_bits, sub};
-use super::subsegments::key;
+use super::reach::Span;
+use super::segments::{Placement, SegmentRecovery};
+use super::split::{Subsegment, fewest_bits};
 use crate::mesh::{TetId, VertexId};
-use crate::predicate::{PointStore, RoundedSpheres};
-use rustc_hash::FxHashSet;
+use crate::predicate::PointStore;
 
-/// Dyadic places are multiples of this part of the subsegment.
-const PARTS: u32 = 64;
 /// No place is nearer to an end than this part of the subsegment.
-const MARGIN: f64 = 0.01;
-/// How far places may be moved for the sake of fewer bits, as a part of the subsegment.
-const SLACK: f64 = 1.0 / 512.0;
-/// How many of the vertices around suggest places: near a hub there can be very many.
-const MOST_SUGGESTIONS: usize = 24;
+const MARGIN: f64 = 0.005;
+/// Cells that are narrower, as a part of the subsegment, are none.
+const NARROW: f64 = 1e-5;
+/// The place is in the middle of its cell, or this part of the cell away, for the sake of fewer bits.
+const SLACK: f64 = 0.25;
+/// If the circumspheres of so many tetrahedra reach a subsegment, the rules prevail.
+const MOST_TETS: usize = 1000;
 
 impl<P: PointStore> SegmentRecovery<'_, P> {
-    /// The parameter of a harmless place on the subsegment ab of segment s, or else t, which the rules say.
-    pub(super) fn harmless(
+    /// The parameter of the best place on the subsegment ab of segment s, if it is better than t, which the rules say.
+    /// `crossed` are the tetrahedra that the subsegment crosses.
+    pub(super) fn less_harmful(
         &mut self,
         s: u32,
         [a, b]: [VertexId; 2],
         subsegment: &Subsegment,
         t: f64,
-        first: TetId,
+        crossed: &[TetId],
     ) -> f64 {
-        let ends = self.subsegments.ends(s);
-        let mut places = dyadic_places(subsegment.range);
-        places.insert(0, t);
-        places.extend(self.suggestions(s, [a, b], subsegment, first));
         let [t0, t1] = subsegment.range;
-        let margin = MARGIN * (t1 - t0);
-        places.retain(|&x| x == t || (t0 + margin <= x && x <= t1 - margin));
-        let good = places
-            .into_iter()
-            .find(|&x| self.is_harmless(ends, [a, b], x, first));
-        good.unwrap_or(t)
-    }
-
-    /// Places that the vertices around the subsegment suggest: at the same distance from a hub, or across.
-    fn suggestions(
-        &self,
-        s: u32,
-        [a, b]: [VertexId; 2],
-        subsegment: &Subsegment,
-        first: TetId,
-    ) -> Vec<f64> {
-        let mesh = &self.delaunay.mesh;
-        let crossed = crossed_by(self.points, mesh, first, a, b);
-        let vertices = crossed.iter().flat_map(|&t| mesh.vertices(t));
-        let mut seen: Vec<VertexId> = vertices
-            .filter(|&v| v != a && v != b && !v.is_infinite())
-            .collect();
-        seen.sort_unstable();
-        seen.dedup();
-        let [p, q] = subsegment.ends;
-        let [t0, t1] = subsegment.range;
-        let along = sub(q, p);
-        let length = distance(p, q);
-        let mut places = Vec::new();
-        for v in seen.into_iter().take(MOST_SUGGESTIONS) {
-            let x = self.points.rounded(v);
-            if let Some(end) = self.shared_end(s, v) {
-                let r = distance(x, subsegment.ends[end]) / length;
-                places.push(if end == 0 { r } else { 1.0 - r });
+        let ab = if self.subsegments.parameter(s, a).value == t0 {
+            [a, b]
+        } else {
+            [b, a]
+        };
+        let [low, high] = self.leaves_halves(ab, crossed);
+        let range = [low.max(MARGIN), high.min(1.0 - MARGIN)];
+        // If no place leaves both halves, more points have to come, and places for this one are no better than others.
+        if range[0] >= range[1] {
+            return t;
+        }
+        let now = (t - t0) / (t1 - t0);
+        // Mostly the zone of this one place is much smaller than what all zones have together.
+        if !self.survey(ab, crossed, [now, now]) {
+            return t;
+        }
+        let harm_now = self.harmful.len();
+        if harm_now == 0 && low < now && now < high {
+            return t;
+        }
+        if !self.survey(ab, crossed, range) {
+            return t;
+        }
+        match best_cell(range, &self.harmful) {
+            Some((least, [low, high])) if least == 0 || least < harm_now => {
+                let length = t1 - t0;
+                let middle = t0 + 0.5 * (low + high) * length;
+                let place = fewest_bits(middle, SLACK * (high - low) * length);
+                // Not so if hardly any doubles are left between the ends.
+                if t0 < place && place < t1 { place } else { t }
             }
-            let across = dot(sub(x, p), along) / dot(along, along);
-            places.push(fewest_bits(across, SLACK * (t1 - t0)));
+            _ => t,
         }
-        places
     }
 
-    /// Whether a point at t destroys no subsegment, and both halves of ab are edges afterwards.
-    fn is_harmless(
-        &mut self,
-        ends: [VertexId; 2],
-        [a, b]: [VertexId; 2],
-        t: f64,
-        first: TetId,
-    ) -> bool {
-        let n = self.points.len();
-        let [p, q] = ends.map(|v| self.points.rounded(v));
-        let v = self
-            .points
-            .push([0, 1, 2].map(|i| p[i] + t * (q[i] - p[i])));
-        self.delaunay.start_at(first);
-        let start = self.delaunay.locate(self.points, v);
-        let around = self.delaunay.mesh.vertices(start);
-        let is_new = !around
-            .iter()
-            .any(|&w| !w.is_infinite() && self.points.coincide(v, w));
-        if is_new {
-            let seen = RoundedSpheres(&*self.points);
-            self.delaunay.find_conflicts(&seen, v, start);
-        }
-        self.points.truncate(n);
-        if !is_new {
-            return false;
-        }
-        let zone = self.delaunay.conflicts();
-        if let Placement::Harmless { effort, .. } = &mut self.placement {
-            *effort = effort.saturating_sub(zone.len());
-        }
-        // The new point is joined to the vertices of the zone.
+    /// Finds which subsegments are lost for which places in a range; whether there are not too many tetrahedra.
+    fn survey(&mut self, ab: [VertexId; 2], crossed: &[TetId], range: Span) -> bool {
         let mesh = &self.delaunay.mesh;
-        let joins = |w| zone.iter().any(|&t| mesh.slot_of(t, w).is_some());
-        if !joins(a) || !joins(b) {
-            return false;
+        let looked = self
+            .reaches
+            .find(self.points, mesh, ab, crossed, range, MOST_TETS);
+        if let Placement::Harmless { effort, .. } = &mut self.placement {
+            *effort = effort.saturating_sub(looked.unwrap_or(MOST_TETS));
         }
-        // Edges on the boundary of the zone stay.
-        let mut border: FxHashSet<[VertexId; 2]> = FxHashSet::default();
-        for c in self.delaunay.conflict_boundary() {
-            let [x, y, z] = mesh.facet(c);
-            border.extend([key(x, y), key(y, z), key(z, x)]);
+        self.harmful.clear();
+        if looked.is_some() {
+            let (subsegments, harmful) = (&self.subsegments, &mut self.harmful);
+            self.reaches.vanishing(mesh, range, |[x, y], span| {
+                if subsegments.segment_of(x, y).is_some() {
+                    harmful.push(span);
+                }
+            });
         }
-        let edges = zone.iter().flat_map(|&t| edges_of(mesh, t));
-        let mut inner = edges.filter(|&[x, y]| !border.contains(&key(x, y)));
-        !inner.any(|[x, y]| self.subsegments.segment_of(x, y).is_some())
+        looked.is_some()
+    }
+
+    /// Between which places both halves of ab are edges.
+    fn leaves_halves(&mut self, ab: [VertexId; 2], crossed: &[TetId]) -> Span {
+        let mesh = &self.delaunay.mesh;
+        let [to_a, to_b] = ab.map(|v| {
+            let reaches = &mut self.reaches;
+            reaches.joined(self.points, mesh, ab, v, crossed, MOST_TETS)
+        });
+        [to_b[0], to_a[1]]
     }
 }
 
-/// The dyadic parts of a range, those with the fewest bits first, of these the middle ones first.
-fn dyadic_places([t0, t1]: [f64; 2]) -> Vec<f64> {
-    let mut parts: Vec<u32> = (1..PARTS).collect();
-    parts.sort_by_key(|&k| (PARTS / (k & k.wrapping_neg()), (2 * k).abs_diff(PARTS), k));
-    let length = t1 - t0;
-    let place = |k| {
-        fewest_bits(
-            t0 + f64::from(k) / f64::from(PARTS) * length,
-            SLACK * length,
-        )
-    };
-    parts.into_iter().map(place).collect()
+/// How many of the intervals contain x.
+fn harm(harmful: &[Span], x: f64) -> usize {
+    harmful.iter().filter(|s| s[0] < x && x < s[1]).count()
+}
+
+/// Of the cells into which the ends of the harmful intervals divide a range, one that is in the fewest of them, with their
+/// number; of these the one nearest to the middle.
+fn best_cell(range: Span, harmful: &[Span]) -> Option<(usize, Span)> {
+    let inside = |x: &f64| range[0] < *x && *x < range[1];
+    let mut ends: Vec<f64> = harmful.iter().flatten().copied().filter(inside).collect();
+    ends.extend(range);
+    ends.sort_unstable_by(f64::total_cmp);
+    let cells = ends.windows(2).map(|w| [w[0], w[1]]);
+    let wide = cells.filter(|w| w[1] - w[0] > NARROW);
+    let rated = wide.map(|cell| {
+        let middle = 0.5 * (cell[0] + cell[1]);
+        (harm(harmful, middle), (middle - 0.5).abs(), cell)
+    });
+    let best = rated.min_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
+    best.map(|(harm, _, cell)| (harm, cell))
 }
 
 #[cfg(test)]
@@ -150,9 +131,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn places_with_few_bits_come_first() {
-        let places = dyadic_places([0.0, 1.0]);
-        assert_eq!(places[..5], [0.5, 0.25, 0.75, 0.375, 0.625]);
-        assert_eq!(places.len(), 63);
+    fn the_best_cell_does_the_least_harm() {
+        let cell = |harmful: &[Span]| best_cell([0.125, 0.875], harmful);
+        assert_eq!(cell(&[]), Some((0, [0.125, 0.875])));
+        assert_eq!(cell(&[[0.0, 0.5]]), Some((0, [0.5, 0.875])));
+        assert_eq!(cell(&[[0.3, 1.0], [0.0, 0.25]]), Some((0, [0.25, 0.3])));
+        assert_eq!(cell(&[[0.0, 0.75], [0.25, 1.0]]), Some((1, [0.125, 0.25])));
+        assert_eq!(
+            cell(&[[0.0, 0.5], [0.5, 1.0], [0.0, 1.0]]),
+            Some((2, [0.125, 0.5]))
+        );
+        let narrow = 0.5 + 0.5 * NARROW;
+        assert_eq!(cell(&[[0.0, 0.5], [narrow, 1.0]]), Some((1, [0.125, 0.5])));
     }
 }

@@ -4,9 +4,11 @@
 //! subsegments, and the edges around its star stay, so nothing else has to be looked at. Every removal is exact, and the
 //! mesh stays the Delaunay tetrahedralization of what is left; no point is left that could be removed alone.
 //!
-//! Each trial tetrahedralizes the neighbours of one point ([`crate::delaunay::filling`]); after a removal those around
-//! are tried again.
+//! Each trial tetrahedralizes the neighbours of one point ([`crate::delaunay::filling`]), unless three of these are seen to
+//! obstruct the edge that is to appear ([`super::obstruction`]), as they nearly always do; after a removal those around are
+//! tried again.
 
+use super::obstruction::is_obstructed;
 use super::segments::Recovered;
 use crate::delaunay::filling;
 use crate::mesh::{Incidence, VertexId};
@@ -53,6 +55,16 @@ impl Recovered {
         let [a, b] = self.subsegments.around(v);
         let mut star = self.incidence.star(mesh, v);
         star.sort_unstable();
+        let mut link: Vec<VertexId> = star
+            .iter()
+            .flat_map(|&t| mesh.vertices(t))
+            .filter(|w| ![a, b, v, VertexId::INFINITE].contains(w))
+            .collect();
+        link.sort_unstable();
+        link.dedup();
+        if is_obstructed(points, [a, b], &link) {
+            return None;
+        }
         let filling = filling(points, mesh, &star, v)?;
         let joins = |t: &[VertexId; 4]| t.contains(&a) && t.contains(&b);
         if !filling.iter().any(joins) {

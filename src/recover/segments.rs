@@ -15,16 +15,20 @@
 //!
 //! # Thrift
 //! Which points are inserted is a choice. Two ways are tried from the start, and the one that needs fewer points is kept:
-//! the place that the rules of [`super::split`] say, and a place nearby that destroys no other subsegment
-//! (`harmless.rs`), where there is one. In the end, points that turn out unnecessary are removed (`prune.rs`).
+//! the place that the rules of [`super::split`] say, and the place that destroys the fewest other subsegments
+//! (`harmless.rs`). The second one is abandoned where it is not ahead of the first after a while. In the end, points
+//! that turn out unnecessary are removed (`prune.rs`).
 
+use super::reach::{Reaches, Span};
 use super::scout::{Scouted, crossed_by, scout};
+use super::scratch::Table;
 use super::split::{self, Reference, Subsegment, split_parameter};
 use super::subsegments::key;
 pub use super::subsegments::{SegmentIndex, Subsegments};
+use super::turn::inner_edges;
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp, InvalidPlc};
-use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
+use crate::mesh::{Incidence, TetId, VertexId};
 use crate::number::{Dyadic, Exact, Vec3};
 use crate::plc::Complex;
 use crate::predicate::{Parameter, PointStore};
@@ -58,7 +62,8 @@ pub fn recover_segments<P: PointStore>(
     if missing.is_empty() {
         return Ok((subsegments, incidence));
     }
-    let mut attempt = |delaunay: &Delaunay, placement| {
+    let mut levels: Vec<Level> = Vec::new();
+    let mut attempt = |delaunay: &Delaunay, placement, levels: &mut Vec<Level>| {
         points.truncate(first);
         let mut recovery = SegmentRecovery {
             points: &mut *points,
@@ -68,15 +73,20 @@ pub fn recover_segments<P: PointStore>(
             index: &index,
             placement,
             missing: BinaryHeap::new(),
+            lost: Vec::new(),
+            zone: Table::default(),
+            reaches: Reaches::default(),
+            harmful: Vec::new(),
             touched: None,
         };
         missing.iter().for_each(|&[a, b]| recovery.enqueue(a, b));
-        recovery.run()
+        recovery.run(levels)
     };
-    let by_rules = attempt(delaunay, Placement::ByRules);
+    let by_rules = attempt(delaunay, Placement::ByRules, &mut levels);
     let most = match &by_rules {
         Ok(recovered) => recovered.subsegments.steiner_count(),
         Err(Failure::GaveUp(GaveUp::SegmentTooShort { .. } | GaveUp::SegmentsTooClose { .. })) => {
+            levels.clear();
             MOST_VERTICES_PER_SEGMENT
         }
         Err(_) => return by_rules.map(|r| (r.subsegments, r.incidence)),
@@ -85,7 +95,7 @@ pub fn recover_segments<P: PointStore>(
         most,
         effort: 1_000_000 + EFFORT_PER_POINT * most,
     };
-    let recovered = match (by_rules, attempt(delaunay, harmless)) {
+    let recovered = match (by_rules, attempt(delaunay, harmless, &mut levels)) {
         (Ok(rules), Ok(harmless)) => {
             let fewer = harmless.subsegments.steiner_count() < rules.subsegments.steiner_count();
             if fewer { harmless } else { rules }
@@ -139,11 +149,16 @@ pub fn add_steiner_points<P: PointStore>(
         index,
         placement: Placement::ByRules,
         missing: BinaryHeap::new(),
+        lost: Vec::new(),
+        zone: Table::default(),
+        reaches: Reaches::default(),
+        harmful: Vec::new(),
         touched: Some(FxHashSet::default()),
     };
     let requests = requests.iter();
     let vertices: Result<Vec<_>, Failure> = requests.map(|&r| recovery.add(r)).collect();
-    let recovered = vertices.and_then(|vertices| recovery.recover_missing().map(|()| vertices));
+    let recovered =
+        vertices.and_then(|vertices| recovery.recover_missing(&mut Vec::new()).map(|()| vertices));
     recovery.subsegments.finish();
     *delaunay = recovery.delaunay;
     *subsegments = recovery.subsegments;
@@ -168,12 +183,21 @@ pub(super) struct Recovered {
     pub(super) subsegments: Subsegments,
 }
 
+/// How far recovery was when it came to subsegments that were shorter than all before.
+#[derive(Clone, Copy, Debug)]
+struct Level {
+    /// The bits of the length of the first one.
+    length: u64,
+    /// The number of Steiner points.
+    count: usize,
+}
+
 /// Where Steiner points are put.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Placement {
     /// Where the rules of [`super::split`] say.
     ByRules,
-    /// Where no other subsegment is destroyed, if such a place is found nearby.
+    /// Where the fewest other subsegments are destroyed.
     Harmless {
         /// More Steiner points than this are of no use: there is a result with so many.
         most: usize,
@@ -191,14 +215,19 @@ pub(super) struct SegmentRecovery<'a, P> {
     pub(super) placement: Placement,
     /// Subsegments to look at, by the bits of their squared length, which are in the order of the lengths.
     missing: BinaryHeap<(u64, [VertexId; 2])>,
+    /// Memory used again.
+    pub(super) reaches: Reaches,
+    pub(super) harmful: Vec<Span>,
+    lost: Vec<[VertexId; 2]>,
+    zone: Table<bool>,
     /// The vertices whose stars have changed, if that is of interest.
     touched: Option<FxHashSet<VertexId>>,
 }
 
 impl<P: PointStore> SegmentRecovery<'_, P> {
     /// Splits what is missing, the longest first, until nothing is.
-    fn run(mut self) -> Result<Recovered, Failure> {
-        self.recover_missing()?;
+    fn run(mut self, levels: &mut Vec<Level>) -> Result<Recovered, Failure> {
+        self.recover_missing(levels)?;
         self.subsegments.finish();
         Ok(Recovered {
             delaunay: self.delaunay,
@@ -207,8 +236,29 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         })
     }
 
-    fn recover_missing(&mut self) -> Result<(), Failure> {
-        while let Some((_, [a, b])) = self.missing.pop() {
+    /// By the rules, notes how far it is when it comes to shorter subsegments; otherwise gives up if it is not ahead of
+    /// that, once it has a quarter of the points that would make it useless.
+    fn recover_missing(&mut self, levels: &mut Vec<Level>) -> Result<(), Failure> {
+        let mut shortest = u64::MAX;
+        let mut next = 0;
+        while let Some((length, [a, b])) = self.missing.pop() {
+            if length < shortest {
+                shortest = length;
+                let count = self.subsegments.steiner_count();
+                match self.placement {
+                    Placement::ByRules => levels.push(Level { length, count }),
+                    Placement::Harmless { most, .. } => {
+                        while levels.get(next).is_some_and(|level| level.length > length) {
+                            next += 1;
+                        }
+                        let not_ahead = levels.get(next).is_some_and(|level| level.count <= count);
+                        if not_ahead && count > most / 4 {
+                            let segment = [a, b];
+                            return Err(GaveUp::TooManySteinerPoints { segment }.into());
+                        }
+                    }
+                }
+            }
             self.recover(a, b)?;
         }
         Ok(())
@@ -302,10 +352,9 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
     }
 
     /// The encroaching vertex that sees ab under the largest angle, among those of the crossed tetrahedra.
-    fn reference(&self, s: u32, first: TetId, a: VertexId, b: VertexId) -> Option<Reference> {
+    fn reference(&self, s: u32, [a, b]: [VertexId; 2], crossed: &[TetId]) -> Option<Reference> {
         let mesh = &self.delaunay.mesh;
         let (pa, pb) = (self.points.rounded(a), self.points.rounded(b));
-        let crossed = crossed_by(self.points, mesh, first, a, b);
         let vertices = crossed.iter().flat_map(|&t| mesh.vertices(t));
         let seen = vertices
             .filter(|&v| v != a && v != b)
@@ -352,16 +401,18 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             range: range.map(|t| t.value),
             vertices,
         };
-        let reference = first.and_then(|first| self.reference(s, first, a, b));
+        let crossed = first.map(|first| crossed_by(self.points, &self.delaunay.mesh, first, a, b));
+        let crossed = crossed.unwrap_or_default();
+        let reference = self.reference(s, [a, b], &crossed);
         let Some(t) = split_parameter(&subsegment, reference) else {
             let middle = Parameter::middle(range[0], range[1]);
             return middle.ok_or_else(|| self.too_short(ends));
         };
-        Ok(match (self.placement, first) {
-            (Placement::Harmless { .. }, Some(first)) => {
-                self.harmless(s, [a, b], &subsegment, t, first).into()
-            }
-            _ => t.into(),
+        Ok(match self.placement {
+            Placement::Harmless { .. } => self
+                .less_harmful(s, [a, b], &subsegment, t, &crossed)
+                .into(),
+            Placement::ByRules => t.into(),
         })
     }
 
@@ -390,7 +441,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
             return false;
         }
         self.delaunay.find_conflicts(self.points, v, start);
-        self.queue_endangered();
+        self.queue_lost();
         if let Some(touched) = &mut self.touched {
             let (mesh, zone) = (&self.delaunay.mesh, self.delaunay.conflicts());
             touched.extend(zone.iter().flat_map(|&t| mesh.vertices(t)));
@@ -402,24 +453,32 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         true
     }
 
-    /// Every subsegment among the edges of the conflict zone may be about to vanish.
-    fn queue_endangered(&mut self) {
-        let mesh = &self.delaunay.mesh;
-        let edges = self
-            .delaunay
-            .conflicts()
-            .iter()
-            .flat_map(|&t| edges_of(mesh, t));
-        let endangered = edges.filter(|&[a, b]| self.subsegments.segment_of(a, b).is_some());
-        for [a, b] in endangered.collect::<Vec<_>>() {
+    /// The subsegments among the edges inside the conflict zone are about to vanish. Others stay, and what is missing stays
+    /// missing, so that the queue holds the missing subsegments, each once.
+    fn queue_lost(&mut self) {
+        let mut lost = std::mem::take(&mut self.lost);
+        let conflicts = self.delaunay.conflicts();
+        self.zone.clear();
+        for t in conflicts {
+            self.zone.set(t.index(), true);
+        }
+        inner_edges(
+            &self.delaunay.mesh,
+            conflicts,
+            |t| self.zone.get(t.index()),
+            (),
+            |(), _| Some(()),
+            |[a, b], ()| {
+                if self.subsegments.segment_of(a, b).is_some() {
+                    lost.push([a, b]);
+                }
+            },
+        );
+        for [a, b] in lost.drain(..) {
             self.enqueue(a, b);
         }
+        self.lost = lost;
     }
-}
-
-pub(super) fn edges_of(mesh: &TetMesh, t: TetId) -> [[VertexId; 2]; 6] {
-    let [a, b, c, d] = mesh.vertices(t);
-    [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]
 }
 
 /// Whether v lies in the interior of the segment ab. Exact.

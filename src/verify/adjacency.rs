@@ -39,13 +39,13 @@ pub(super) fn check(case: &Case, findings: &mut Findings) {
             });
         }
     }
-    for (_, face) in tables.boundary() {
+    let mut others = case.locator.around_boundary().iter().peekable();
+    for (i, (_, face)) in tables.boundary().enumerate() {
         findings.counts.boundary_faces += 1;
         let own = face.sides[0].0 as usize;
-        for other in case.locator.containing(&face.key) {
-            if other != own {
-                findings.report(Violation::Overlap { tets: [own, other] });
-            }
+        while let Some(&(_, other)) = others.next_if(|&&(query, _)| query as usize == i) {
+            let tets = [own, other as usize];
+            findings.report(Violation::Overlap { tets });
         }
     }
 }

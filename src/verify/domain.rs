@@ -7,11 +7,15 @@
 //! *Hull*: the outer boundary is convex ([`super::hull`]) and all of the input is in the mesh; voids are as above, but a
 //! hole point may be meshed, as there are two opinions on what a hole is in a mesh that keeps its convex hull.
 //!
-//! In both cases the volumes of the tetrahedra add up to the volume that the boundary encloses.
+//! In both cases the volumes of the tetrahedra add up to the volume that the boundary encloses. Six times the volume of a
+//! tetrahedron is the sum of the cones from the origin over its four faces, and the cones over a face from both sides
+//! cancel. So this follows where every face has at most two tetrahedra, on opposite sides ([`super::adjacency`]), and
+//! is checked where that does not hold.
 
 use super::facets::Cover;
 use super::segments::{self, Fate};
-use super::shells::{Shell, Shells, cone};
+use super::shells::{Shell, Shells};
+use super::sums::Cones;
 use super::{Case, Domain, Findings, Violation, hull};
 use crate::number::{Dyadic, Exact, Number, Sign};
 use std::cmp::Ordering;
@@ -39,8 +43,10 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
             let open = case.tables.boundary().any(|(f, _)| !cover.constrained[f]);
             let mut holes = case.input.holes.iter();
             let mut trial = findings.trial();
-            hull::check(case, &outer, &mut trial);
-            trial.is_empty() && (open || holes.any(|&h| !case.locator.containing(&[h]).is_empty()))
+            (open || holes.any(|&h| !case.locator.containing(h).is_empty())) && {
+                hull::check(case, &outer, &mut trial);
+                trial.is_empty()
+            }
         }
     };
     findings.counts.domain = if is_hull {
@@ -59,15 +65,22 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
 }
 
 fn volume(case: &Case, findings: &mut Findings) {
+    // The inward normal makes the cone over a face negative.
+    let mut boundary = Cones::new();
+    for (_, face) in case.tables.boundary() {
+        let [a, b, c] = case.tables.inward(face.sides[0]);
+        boundary.add(case.points, [a, c, b]);
+    }
+    let boundary = boundary.volume();
+    if findings.is_manifold() {
+        findings.counts.volume = boundary.to_f64() / 6.0;
+        return;
+    }
     let tets = case
         .tables
         .tets
         .iter()
         .fold(Dyadic::ZERO, |sum, &t| sum + &case.points.volume(t));
-    // The inward normal makes the cone over a face negative.
-    let boundary = case.tables.boundary().fold(Dyadic::ZERO, |sum, (_, face)| {
-        sum - &cone(case, case.tables.inward(face.sides[0]))
-    });
     findings.counts.volume = tets.to_f64() / 6.0;
     if tets != boundary {
         findings.report(Violation::Volume {
@@ -97,7 +110,7 @@ fn all_input_is_meshed(case: &Case, fates: &[Fate], cover: &Cover, findings: &mu
     for (i, &site) in case.input.site_of.iter().enumerate() {
         if !std::mem::replace(&mut seen[site.index()], true)
             && !case.tables.is_used(site)
-            && case.locator.containing(&[site]).is_empty()
+            && case.locator.containing(site).is_empty()
         {
             findings.report(Violation::MissingVertex {
                 vertex: case.named(i, site),
@@ -128,7 +141,7 @@ fn all_input_is_meshed(case: &Case, fates: &[Fate], cover: &Cover, findings: &mu
 fn holes(case: &Case, voids: &[&Shell], is_hull: bool, findings: &mut Findings) {
     let mut has_hole = vec![false; voids.len()];
     for (h, &hole) in case.input.holes.iter().enumerate() {
-        if let Some(&tet) = case.locator.containing(&[hole]).first() {
+        if let Some(&tet) = case.locator.containing(hole).first() {
             if is_hull {
                 findings.counts.holes_meshed += 1;
             } else {

@@ -25,12 +25,16 @@ use super::cover::{self, Need};
 use super::delaunay::is_locally_delaunay;
 use super::planar::{Area, distinct};
 use super::segments::{Fate, axes_of};
+use super::slabs::Slabs;
+use super::sums::Areas;
 use super::tables::sorted2;
 use super::{Case, Findings, Violation};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Number};
+use crate::number::{Dyadic, Number, Sign};
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::collections::BTreeMap;
+
+/// From how many facets on those of a group are sorted by slabs.
+const MANY: usize = 8;
 
 /// A part of a facet outside the domain.
 pub(super) struct OutsidePart {
@@ -46,32 +50,40 @@ pub(super) struct OutsidePart {
 pub(super) struct Cover {
     /// For each mesh face, whether it is one of those that cover a facet.
     pub(super) constrained: Vec<bool>,
-    /// A facet for each candidate.
-    pub(super) facet_of: FxHashMap<usize, usize>,
+    /// A facet for each candidate, [`usize::MAX`] for other faces.
+    facet_of: Vec<usize>,
     /// The exempt parts.
     pub(super) outside: Vec<OutsidePart>,
+}
+
+impl Cover {
+    /// A facet whose candidate the face is.
+    pub(super) fn facet_of(&self, face: usize) -> Option<usize> {
+        Some(self.facet_of[face]).filter(|&f| f != usize::MAX)
+    }
 }
 
 /// Covers all facets.
 pub(super) fn check(case: &Case, fates: &[Fate], findings: &mut Findings) -> Cover {
     let mut cover = Cover {
         constrained: vec![false; case.tables.faces.len()],
-        facet_of: FxHashMap::default(),
+        facet_of: vec![usize::MAX; case.tables.faces.len()],
         outside: Vec::new(),
     };
-    let listed: FxHashSet<usize> = case
-        .mesh
-        .faces
-        .iter()
-        .filter_map(|f| case.tables.find_face(f.vertices))
-        .collect();
-    for group in groups(case, fates) {
+    let mut listed = vec![false; case.tables.faces.len()];
+    for face in &case.mesh.faces {
+        if let Some(f) = case.tables.find_face(face.vertices) {
+            listed[f] = true;
+        }
+    }
+    for group in groups(case, fates).chunk_by(|f, g| f.0 == g.0) {
         findings.counts.facet_groups += 1;
-        if let Some(face) = same_face(case, fates, &group) {
+        if let Some(face) = same_face(case, fates, group) {
             findings.counts.facets += 1;
             cover.constrained[face] = true;
             continue;
         }
+        let group = group.iter().map(|&(_, f)| f).collect();
         match Group::new(case, fates, group) {
             Some(group) => group.check(&listed, &mut cover, findings),
             None => findings.counts.facets_degenerate += 1,
@@ -81,8 +93,8 @@ pub(super) fn check(case: &Case, fates: &[Fate], findings: &mut Findings) -> Cov
     cover
 }
 
-/// The facets joined by merged edges, each group in increasing order, the groups by their first facet.
-fn groups(case: &Case, fates: &[Fate]) -> Vec<Vec<usize>> {
+/// (first facet of its group, facet) for the facets joined by merged edges, sorted.
+fn groups(case: &Case, fates: &[Fate]) -> Vec<(usize, usize)> {
     let mut leader: Vec<usize> = (0..case.input.facets.len()).collect();
     fn find(leader: &mut [usize], mut f: usize) -> usize {
         while leader[f] != f {
@@ -97,25 +109,21 @@ fn groups(case: &Case, fates: &[Fate]) -> Vec<Vec<usize>> {
             leader[f.max(g)] = f.min(g);
         }
     }
-    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for f in 0..leader.len() {
-        groups.entry(find(&mut leader, f)).or_default().push(f);
-    }
-    groups.into_values().collect()
+    let facets = 0..leader.len();
+    let mut groups: Vec<_> = facets.map(|f| (find(&mut leader, f), f)).collect();
+    groups.sort_unstable();
+    groups
 }
 
 /// The frequent case: the facet is a triangle, and a mesh face.
-fn same_face(case: &Case, fates: &[Fate], group: &[usize]) -> Option<usize> {
-    let [f] = group else { return None };
+fn same_face(case: &Case, fates: &[Fate], group: &[(usize, usize)]) -> Option<usize> {
+    let [(_, f)] = group else { return None };
     let facet = &case.input.facets[*f];
     let [a, b, c] = facet.vertices[..] else {
         return None;
     };
     let whole = facet.edges.len() == 3 && facet.holes.is_empty();
-    let direct = facet
-        .edges
-        .iter()
-        .all(|&e| matches!(&fates[e], Fate::Chain(chain) if chain.len() == 2));
+    let direct = facet.edges.iter().all(|&e| fates[e] == Fate::Edge);
     case.tables.find_face([a, b, c]).filter(|_| whole && direct)
 }
 
@@ -125,11 +133,17 @@ struct Group<'a> {
     facets: Vec<usize>,
     axes: [usize; 2],
     areas: Vec<Area<'a>>,
+    /// The bounding boxes of the areas, and the areas by slabs along the second axis, if there are many.
+    boxes: Vec<[[f64; 2]; 2]>,
+    slabs: Option<Slabs>,
+    /// Three points of each plane of the facets, and how far off Steiner points may be.
+    planes: Vec<([VertexId; 3], f64)>,
     /// All edges with their chains in place.
     edges: Vec<[VertexId; 2]>,
     /// The edges that were merged away.
     merged: FxHashSet<[VertexId; 2]>,
-    vertices: FxHashSet<VertexId>,
+    /// Sorted.
+    vertices: Vec<VertexId>,
     /// The chains in place of edges that a vertex is on, and where in them.
     on_chains: FxHashMap<VertexId, Vec<(usize, usize)>>,
 }
@@ -148,11 +162,24 @@ impl<'a> Group<'a> {
             let edges = case.input.facets[f].edges.iter();
             distinct(edges.flat_map(|&e| fates[e].edges(case.input.edges[e].ends)))
         };
-        let areas = facets
-            .iter()
-            .map(|&f| Area::new(case.points, axes, &edges_of(f), &case.input.facets[f].holes))
-            .collect();
-        let edges = distinct(facets.iter().flat_map(|&f| edges_of(f)));
+        let mut edges = Vec::new();
+        let (mut areas, mut boxes) = (Vec::new(), Vec::new());
+        for &f in &facets {
+            let own = edges_of(f);
+            areas.push(Area::new(
+                case.points,
+                axes,
+                &own,
+                &case.input.facets[f].holes,
+            ));
+            boxes.push(box_of(case, axes, &own));
+            edges.extend(own);
+        }
+        let edges = distinct(edges.into_iter());
+        let slabs = (facets.len() >= MANY).then(|| {
+            let intervals: Vec<[f64; 2]> = boxes.iter().map(|b: &[[f64; 2]; 2]| b[1]).collect();
+            Slabs::new(&intervals)
+        });
         let own_edges = facets.iter().flat_map(|&f| &case.input.facets[f].edges);
         let merged = own_edges
             .filter(|&&e| fates[e] == Fate::Merged)
@@ -161,13 +188,14 @@ impl<'a> Group<'a> {
         let own = facets
             .iter()
             .flat_map(|&f| case.input.facets[f].vertices.iter().copied());
-        let vertices = own.chain(edges.iter().flatten().copied()).collect();
+        let mut vertices: Vec<VertexId> = own.chain(edges.iter().flatten().copied()).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let planes = planes(case, &facets);
         let mut on_chains: FxHashMap<VertexId, Vec<(usize, usize)>> = FxHashMap::default();
         for &f in &facets {
             for &e in &case.input.facets[f].edges {
-                if let Fate::Chain(chain) = &fates[e]
-                    && chain.len() > 2
-                {
+                if let Fate::Chain(chain) = &fates[e] {
                     for (i, &v) in chain.iter().enumerate() {
                         on_chains.entry(v).or_default().push((e, i));
                     }
@@ -180,28 +208,34 @@ impl<'a> Group<'a> {
             facets,
             axes,
             areas,
+            boxes,
+            slabs,
+            planes,
             edges,
             merged,
             vertices,
         })
     }
 
-    fn check(mut self, listed: &FxHashSet<usize>, cover: &mut Cover, findings: &mut Findings) {
-        let candidates = self.candidates();
+    fn check(mut self, listed: &[bool], cover: &mut Cover, findings: &mut Findings) {
+        let mut filled = FxHashSet::default();
+        let candidates = self.candidates(&mut filled);
         for &f in &candidates {
-            cover.facet_of.entry(f).or_insert(self.facets[0]);
+            let of = &mut cover.facet_of[f];
+            *of = (*of).min(self.facets[0]);
         }
-        self.exempt(&candidates, cover, findings);
-        let listed = candidates.iter().copied().filter(|f| listed.contains(f));
+        self.exempt(&filled, cover, findings);
+        let expected = self.expected();
+        let listed = candidates.iter().copied().filter(|&f| listed[f]);
         let choices: [&dyn Fn() -> Vec<usize>; 3] = [
             &|| listed.clone().collect(),
             &|| candidates.clone(),
-            &|| self.chosen(&candidates),
+            &|| self.chosen(&candidates, &expected),
         ];
         let (mut covering, mut first_misfit) = (None, None);
         for (i, choice) in choices.into_iter().enumerate() {
             let choice = choice();
-            match self.misfit(&choice) {
+            match self.misfit(&choice, &expected) {
                 None => {
                     let mut others = candidates
                         .iter()
@@ -243,10 +277,37 @@ impl<'a> Group<'a> {
         });
     }
 
-    /// The candidate faces, sorted.
-    fn candidates(&self) -> Vec<usize> {
+    /// The cells of the areas that hold the centroid of q and belong to them.
+    fn kept_cells_at(&self, q: &[VertexId]) -> Vec<(usize, usize)> {
+        let points = self.case.points;
+        let wobble = points.wobble(q);
+        let bounds = self.axes.map(|i| {
+            let all = || q.iter().map(|&v| points.at(v)[i]);
+            let (low, high) = (
+                all().fold(f64::INFINITY, f64::min),
+                all().fold(f64::NEG_INFINITY, f64::max),
+            );
+            [low - wobble, high + wobble]
+        });
+        let mut near = Vec::new();
+        match &self.slabs {
+            None => near.extend(0..self.areas.len() as u32),
+            Some(slabs) => slabs.around(bounds[1][0], bounds[1][1], &mut near),
+        }
+        let meets = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[1] && b[0] <= a[1];
+        let near = near.into_iter().map(|i| i as usize).filter(|&i| {
+            let own = &self.boxes[i];
+            meets(&own[0], &bounds[0]) && meets(&own[1], &bounds[1])
+        });
+        near.map(|i| (i, self.areas[i].cell_at(q)))
+            .filter(|&(i, cell)| self.areas[i].is_kept(cell))
+            .collect()
+    }
+
+    /// The candidate faces, sorted; `filled` are the cells that hold the centroid of one.
+    fn candidates(&self, filled: &mut FxHashSet<(usize, usize)>) -> Vec<usize> {
         let tables = &self.case.tables;
-        let barrier: FxHashSet<[VertexId; 2]> = self.edges.iter().copied().collect();
+        let is_barrier = |e: &[VertexId; 2]| self.edges.binary_search(e).is_ok();
         let mut accepted = FxHashMap::default();
         let mut seen = FxHashSet::default();
         let mut found = Vec::new();
@@ -265,17 +326,15 @@ impl<'a> Group<'a> {
                 {
                     continue;
                 }
-                if self
-                    .areas
-                    .iter()
-                    .any(|area| area.is_kept(area.cell_at(&key)))
-                {
+                let cells = self.kept_cells_at(&key);
+                if !cells.is_empty() {
+                    filled.extend(cells);
                     found.push(f);
                     let [a, b, c] = key;
                     stack.extend(
                         [[a, b], [b, c], [a, c]]
                             .into_iter()
-                            .filter(|e| !barrier.contains(e)),
+                            .filter(|e| !is_barrier(e)),
                     );
                 }
             }
@@ -298,43 +357,27 @@ impl<'a> Group<'a> {
 
     fn accepts(&self, v: VertexId, memory: &mut FxHashMap<VertexId, bool>) -> bool {
         let on_plane = || {
-            self.facets.iter().any(|&f| {
-                let facet = &self.case.input.facets[f];
-                let Some([a, b, c]) = facet.frame else {
-                    return false;
-                };
-                // The bulge is rounded, and so is what is computed with it.
-                let tolerance = match facet.flat {
-                    true => self.case.tolerance,
-                    false => facet.bulge + self.case.tolerance.max(self.case.rounding),
-                };
-                self.case.points.orient([a, b, c, v]).is_zero()
-                    || (!self.case.input.is_site(v)
-                        && self.case.points.near_plane([a, b, c], v, tolerance))
+            let points = self.case.points;
+            self.planes.iter().any(|&(plane, tolerance)| {
+                points.is_on_plane(plane, v)
+                    || (!self.case.input.is_site(v) && points.near_plane(plane, v, tolerance))
             })
         };
         // A vertex on the plane but beyond the border: a face with it may lie mostly in the facet, nearly coplanar with the
         // facet's neighbour.
-        let inside = || {
-            let mut areas = self.areas.iter();
-            areas.any(|area| area.is_kept(area.cell_at(&[v])))
-        };
-        self.vertices.contains(&v) || *memory.entry(v).or_insert_with(|| on_plane() && inside())
+        let inside = || !self.kept_cells_at(&[v]).is_empty();
+        self.vertices.binary_search(&v).is_ok()
+            || *memory.entry(v).or_insert_with(|| on_plane() && inside())
     }
 
     /// Takes the parts outside the domain out of the areas. Parts at merged edges are outside together or not at all.
-    fn exempt(&mut self, candidates: &[usize], cover: &mut Cover, findings: &mut Findings) {
+    fn exempt(
+        &mut self,
+        filled: &FxHashSet<(usize, usize)>,
+        cover: &mut Cover,
+        findings: &mut Findings,
+    ) {
         let tables = &self.case.tables;
-        let filled: Vec<FxHashSet<usize>> = self
-            .areas
-            .iter()
-            .map(|area| {
-                candidates
-                    .iter()
-                    .map(|&f| area.cell_at(&tables.faces[f].key))
-                    .collect()
-            })
-            .collect();
         let is_joined = |area: &Area, cell| {
             let mut edges = area.edges_around(cell).into_iter().map(sorted2);
             !self.merged.is_empty() && edges.any(|e| self.merged.contains(&e))
@@ -344,7 +387,7 @@ impl<'a> Group<'a> {
         for (i, area) in self.areas.iter().enumerate() {
             for cell in area.kept_cells() {
                 let joined = is_joined(area, cell);
-                if filled[i].contains(&cell) {
+                if filled.contains(&(i, cell)) {
                     joined_is_filled |= joined;
                 } else {
                     empty.push((i, cell, joined));
@@ -371,7 +414,7 @@ impl<'a> Group<'a> {
 
     /// A part of the candidates that covers the group, if one is found: with those that need to be on a facet, because
     /// they are not locally Delaunay, if possible.
-    fn chosen(&self, candidates: &[usize]) -> Vec<usize> {
+    fn chosen(&self, candidates: &[usize], expected: &[([VertexId; 2], usize)]) -> Vec<usize> {
         let tables = &self.case.tables;
         // A face that stands upright is a side of a shim; it covers nothing.
         let lies = |&f: &usize| {
@@ -387,60 +430,66 @@ impl<'a> Group<'a> {
             .iter()
             .map(|&f| !is_locally_delaunay(self.case, f))
             .collect();
-        let need = self.expected();
-        let need = need.into_iter().map(|(edge, faces)| match faces {
+        let need = expected.iter().map(|&(edge, faces)| match faces {
             1 => (edge, Need::One),
             _ => (edge, Need::TwoOrNone),
         });
         let in_mesh = |cover: &[usize]| cover.iter().map(|&i| lying[i]).collect::<Vec<_>>();
-        let accept = |cover: &[usize]| self.misfit(&in_mesh(cover)).is_none();
+        let accept = |cover: &[usize]| self.misfit(&in_mesh(cover), expected).is_none();
         let cover = cover::find(&keys, &need.collect(), &wanted, &accept);
         cover.map_or_else(|| lying.clone(), |cover| in_mesh(&cover))
     }
 
-    /// How many faces each edge of the boundary has; an edge between two facets of the group is in the boundary of both.
-    fn expected(&self) -> BTreeMap<[VertexId; 2], usize> {
-        let mut expected: BTreeMap<[VertexId; 2], usize> = BTreeMap::new();
-        for edge in self.areas.iter().flat_map(Area::boundary) {
-            *expected.entry(sorted2(edge)).or_insert(0) += 1;
-        }
-        expected
+    /// How many faces each edge of the boundary has, by edges; an edge between two facets of the group is in the boundary of
+    /// both.
+    fn expected(&self) -> Vec<([VertexId; 2], usize)> {
+        let boundary = self.areas.iter().flat_map(Area::boundary);
+        let mut edges: Vec<[VertexId; 2]> = boundary.map(sorted2).collect();
+        edges.sort_unstable();
+        let counted = edges.chunk_by(|x, y| x == y);
+        counted.map(|same| (same[0], same.len())).collect()
     }
 
     /// Why the faces do not cover the group, if they do not.
-    fn misfit(&self, faces: &[usize]) -> Option<Misfit> {
-        let expected = self.expected();
-        let mut found: BTreeMap<[VertexId; 2], usize> = expected.keys().map(|&e| (e, 0)).collect();
-        for [a, b, c] in faces.iter().map(|&f| self.case.tables.faces[f].key) {
-            for edge in [[a, b], [b, c], [a, c]] {
-                *found.entry(edge).or_insert(0) += 1;
+    fn misfit(&self, faces: &[usize], expected: &[([VertexId; 2], usize)]) -> Option<Misfit> {
+        let keys = || faces.iter().map(|&f| self.case.tables.faces[f].key);
+        // (edge, faces that it should have, faces that it has)
+        let mut edges: Vec<([VertexId; 2], usize, usize)> =
+            expected.iter().map(|&(edge, n)| (edge, n, 0)).collect();
+        edges.extend(keys().flat_map(|[a, b, c]| [[a, b], [b, c], [a, c]].map(|e| (e, 0, 1))));
+        edges.sort_unstable_by_key(|e| e.0);
+        for same in edges.chunk_by(|x, y| x.0 == y.0) {
+            let edge = same[0].0;
+            let sum = |(n, m), e: &([VertexId; 2], usize, usize)| (n + e.1, m + e.2);
+            match same.iter().fold((0, 0), sum) {
+                (1, 1) | (2, 0) => {}
+                (1, faces) => return Some(Misfit::Edge(edge, faces, 1)),
+                (_, 2) => {}
+                (_, faces) => return Some(Misfit::Edge(edge, faces, 2)),
             }
         }
-        for (&edge, &faces) in &found {
-            match expected.get(&edge) {
-                Some(1) if faces != 1 => return Some(Misfit::Edge(edge, faces, 1)),
-                Some(2) if faces == 0 => {}
-                Some(1) => {}
-                _ if faces != 2 => return Some(Misfit::Edge(edge, faces, 2)),
-                _ => {}
+        let points = self.case.points;
+        let cover = |sum: &mut Areas| {
+            for [a, b, c] in keys() {
+                match points.orient2d(self.axes, [a, b, c]) {
+                    Sign::Positive => sum.add(points, [a, b, c]),
+                    Sign::Negative => sum.add(points, [a, c, b]),
+                    Sign::Zero => {}
+                }
             }
+        };
+        let mut sum = Areas::new(self.axes);
+        cover(&mut sum);
+        self.areas.iter().for_each(|a| a.subtract_from(&mut sum));
+        if sum.sign().is_zero() {
+            return None;
         }
-        let covered = faces.iter().fold(Dyadic::ZERO, |sum, &f| {
-            let area = self
-                .case
-                .points
-                .area(self.axes, self.case.tables.faces[f].key);
-            if area.exact_sign().is_negative() {
-                sum - &area
-            } else {
-                sum + &area
-            }
-        });
-        let area = self
-            .areas
-            .iter()
-            .fold(Dyadic::ZERO, |sum, a| sum + &a.twice_area());
-        (covered != area).then(|| Misfit::Area(covered.to_f64() / 2.0, area.to_f64() / 2.0))
+        sum.take_twice();
+        cover(&mut sum);
+        let covered = sum.take_twice().to_f64();
+        let areas = self.areas.iter().map(Area::twice_area);
+        let area = areas.fold(Dyadic::ZERO, |sum, a| sum + &a).to_f64();
+        Some(Misfit::Area(covered / 2.0, area / 2.0))
     }
 
     /// Whether some vertex of the faces is not exactly on the plane, although the input vertices are.
@@ -451,8 +500,45 @@ impl<'a> Group<'a> {
             return false;
         };
         let vertices = faces.iter().flat_map(|&f| self.case.tables.faces[f].key);
+        let mut vertices: Vec<VertexId> = vertices.collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let points = self.case.points;
         vertices
             .into_iter()
-            .any(|v| !self.case.points.orient([a, b, c, v]).is_zero())
+            .any(|v| !points.is_on_plane([a, b, c], v))
     }
+}
+
+/// The bounding box of edges in the plane of the axes.
+fn box_of(case: &Case, axes: [usize; 2], edges: &[[VertexId; 2]]) -> [[f64; 2]; 2] {
+    axes.map(|i| {
+        let ends = edges.iter().flatten();
+        ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| {
+            let (x, wobble) = (case.points.at(v)[i], case.points.wobble(&[v]));
+            [low.min(x - wobble), high.max(x + wobble)]
+        })
+    })
+}
+
+/// The planes of the facets: one if all are exactly on one.
+fn planes(case: &Case, facets: &[usize]) -> Vec<([VertexId; 3], f64)> {
+    let facets = || facets.iter().map(|&f| &case.input.facets[f]);
+    let mut planes = facets().filter_map(|facet| {
+        // The bulge is rounded, and so is what is computed with it.
+        let tolerance = match facet.flat {
+            true => case.tolerance,
+            false => facet.bulge + case.tolerance.max(case.rounding),
+        };
+        facet.frame.map(|frame| (frame, tolerance))
+    });
+    let Some(first) = planes.next() else {
+        return Vec::new();
+    };
+    let is_on_first = |&v: &VertexId| case.points.is_on_plane(first.0, v);
+    let coplanar = facets().all(|facet| {
+        (facet.flat || facet.frame.is_none()) && facet.vertices.iter().all(is_on_first)
+    });
+    let others = planes.filter(|_| !coplanar);
+    std::iter::once(first).chain(others).collect()
 }

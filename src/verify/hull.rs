@@ -10,23 +10,17 @@
 //! within the tolerance of its plane and if one of the four vertices is a Steiner point; this is counted.
 
 use super::shells::Shell;
-use super::tables::sorted2;
 use super::{Case, Findings, Violation};
 use crate::mesh::VertexId;
-use std::collections::BTreeMap;
 
 /// `outer`: the shells of positive volume.
 pub(super) fn check(case: &Case, outer: &[&Shell], findings: &mut Findings) {
     let centre = case.tables.tets[0];
-    for other in case
-        .locator
-        .containing(&centre)
-        .into_iter()
-        .filter(|&t| t != 0)
-    {
+    for other in case.locator.around_first() {
         findings.report(Violation::Overlap { tets: [0, other] });
     }
-    let mut around: BTreeMap<[VertexId; 2], Vec<usize>> = BTreeMap::new();
+    let faces = outer.iter().map(|shell| shell.faces.len()).sum::<usize>();
+    let mut around: Vec<([VertexId; 2], usize)> = Vec::with_capacity(3 * faces);
     for &f in outer.iter().flat_map(|shell| &shell.faces) {
         let face = &case.tables.faces[f];
         let inward = case.tables.inward(face.sides[0]);
@@ -37,12 +31,14 @@ pub(super) fn check(case: &Case, outer: &[&Shell], findings: &mut Findings) {
             });
         }
         let [a, b, c] = face.key;
-        for edge in [[a, b], [b, c], [a, c]] {
-            around.entry(sorted2(edge)).or_default().push(f);
-        }
+        // The key is sorted.
+        around.extend([([a, b], f), ([b, c], f), ([a, c], f)]);
     }
-    for (edge, faces) in around {
-        let [f, g] = faces[..] else {
+    // Stable: faces stay in order.
+    around.sort_by_key(|&(edge, _)| edge);
+    for faces in around.chunk_by(|x, y| x.0 == y.0) {
+        let edge = faces[0].0;
+        let [(_, f), (_, g)] = *faces else {
             findings.report(Violation::HullNotManifold {
                 edge: edge.map(|v| case.place(v)),
                 faces: faces.len(),

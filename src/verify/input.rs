@@ -7,7 +7,6 @@ use crate::mesh::{ExportedMesh, VertexId};
 use crate::number::{Dyadic, Vec3};
 use crate::plc::Plc;
 use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
 
 /// An edge of facets or a segment given for itself; several coinciding ones are one.
 pub(super) struct InputEdge {
@@ -114,9 +113,7 @@ impl Input {
                 vertices.dedup();
                 let frame = frame(&points, &vertices);
                 let flat = frame.is_some_and(|[a, b, c]| {
-                    vertices
-                        .iter()
-                        .all(|&v| points.orient([a, b, c, v]).is_zero())
+                    vertices.iter().all(|&v| points.is_on_plane([a, b, c], v))
                 });
                 let bulge = frame.filter(|_| !flat).map_or(0.0, |f| {
                     vertices
@@ -154,46 +151,37 @@ impl Input {
 
 /// All edges, and for each facet the indices of its own.
 fn edges(plc: &Plc, site_of: &[VertexId]) -> (Vec<InputEdge>, Vec<Vec<usize>>) {
-    // For each edge: its facets and whether it is listed for itself.
-    let mut found: BTreeMap<[VertexId; 2], (Vec<usize>, bool)> = BTreeMap::new();
+    // (ends, facet, whether it is listed for itself), where no facet comes last.
+    let mut uses: Vec<([VertexId; 2], u32, bool)> = Vec::new();
     let key = |a: VertexId, b: VertexId| sorted2([site_of[a.index()], site_of[b.index()]]);
     for (f, facet) in plc.facets.iter().enumerate() {
         for polygon in &facet.polygons {
             let n = polygon.len();
             // A polygon with two vertices is one edge, and one vertex is none.
             for i in 0..if n == 2 { 1 } else { n } {
-                let ends = key(polygon[i], polygon[(i + 1) % n]);
-                if ends[0] != ends[1] {
-                    let (facets, explicit) = found.entry(ends).or_default();
-                    if facets.last() != Some(&f) {
-                        facets.push(f);
-                    }
-                    *explicit |= n == 2;
-                }
+                uses.push((key(polygon[i], polygon[(i + 1) % n]), f as u32, n == 2));
             }
         }
     }
-    for segment in &plc.segments {
-        let ends = key(segment.ends[0], segment.ends[1]);
-        if ends[0] != ends[1] {
-            found.entry(ends).or_default().1 = true;
-        }
-    }
+    let segments = plc.segments.iter();
+    uses.extend(segments.map(|s| (key(s.ends[0], s.ends[1]), u32::MAX, true)));
+    uses.retain(|(ends, ..)| ends[0] != ends[1]);
+    uses.sort_unstable();
     let mut of_facet = vec![Vec::new(); plc.facets.len()];
-    let edges = found
-        .into_iter()
-        .enumerate()
-        .map(|(e, (ends, (facets, explicit)))| {
-            for &f in &facets {
-                of_facet[f].push(e);
-            }
-            InputEdge {
-                ends,
-                facets,
-                explicit,
-            }
-        })
-        .collect();
+    let mut edges: Vec<InputEdge> = Vec::new();
+    for uses in uses.chunk_by(|x, y| x.0 == y.0) {
+        let facets = uses.iter().map(|u| u.1 as usize);
+        let mut facets: Vec<usize> = facets.filter(|&f| f != u32::MAX as usize).collect();
+        facets.dedup();
+        for &f in &facets {
+            of_facet[f].push(edges.len());
+        }
+        edges.push(InputEdge {
+            ends: uses[0].0,
+            facets,
+            explicit: uses.iter().any(|u| u.2),
+        });
+    }
     (edges, of_facet)
 }
 

@@ -1,132 +1,116 @@
-//! Which tetrahedra contain a point: a tree of bounding boxes in front of exact signs. O(n log n) to build, and a
-//! handful of exact tests for each query in a mesh of reasonable shape.
+//! Which tetrahedra contain a point: all the points that are asked for at once. A tree of the points is searched with the
+//! bounding box of each tetrahedron, and what it finds is decided exactly.
+//!
+//! For n tetrahedra and m points: O(m log m) for the tree, and O(log m) for each tetrahedron of reasonable shape.
 
 use super::points::Points;
 use super::tables::{INWARD, Tables};
 use crate::mesh::VertexId;
+use rustc_hash::FxHashMap;
 
-const LEAF: usize = 8;
+const LEAF: usize = 6;
 
 /// A box by its least and greatest coordinates.
 type Bounds = [[f64; 3]; 2];
 
 struct Node {
+    /// Of the points below, with their slack.
     bounds: Bounds,
-    /// The range of `order` below this node.
-    range: [usize; 2],
+    /// The range of points below this node.
+    range: [u32; 2],
     /// The second child; the first one is the next node. 0 for a leaf.
-    second: usize,
+    second: u32,
 }
 
-/// The tree.
+/// A point of the tree.
+#[derive(Clone, Copy)]
+struct Site {
+    /// Rounded.
+    at: [f64; 3],
+    /// How far off that may be along each axis.
+    slack: f64,
+    query: u32,
+}
+
+/// The centroid of vertices.
+struct Query {
+    /// The vertices, one to four; the rest are [`VertexId::INFINITE`].
+    vertices: [VertexId; 4],
+    /// A tetrahedron that is known to contain it and not asked for, or none ([`u32::MAX`]).
+    own: u32,
+}
+
+/// The points and the tetrahedra that contain them.
 pub(super) struct Locator<'a> {
     points: &'a Points,
     tables: &'a Tables,
-    nodes: Vec<Node>,
-    order: Vec<u32>,
-    /// Those of the tetrahedra.
-    bounds: Vec<Bounds>,
+    /// For each boundary face and the centroid of the first tetrahedron, in this order: the tetrahedra besides its own.
+    others: Vec<(u32, u32)>,
+    boundary_faces: u32,
+    /// The tetrahedra that contain single points.
+    around: FxHashMap<VertexId, Vec<usize>>,
 }
 
 impl<'a> Locator<'a> {
-    pub(super) fn new(points: &'a Points, tables: &'a Tables) -> Locator<'a> {
-        let bounds: Vec<Bounds> = tables
-            .tets
-            .iter()
-            .map(|t| {
-                let p = t.map(|v| points.at(v));
-                [
-                    p.iter().fold([f64::INFINITY; 3], least),
-                    p.iter().fold([f64::NEG_INFINITY; 3], greatest),
-                ]
+    /// Locates the centroids of the boundary faces, that of the first tetrahedron, and the `singles`.
+    pub(super) fn new(
+        points: &'a Points,
+        tables: &'a Tables,
+        singles: impl Iterator<Item = VertexId>,
+    ) -> Locator<'a> {
+        let none = VertexId::INFINITE;
+        let query = |vertices, own| Query { vertices, own };
+        let mut queries: Vec<Query> = tables
+            .boundary()
+            .map(|(_, face)| {
+                let [a, b, c] = face.key;
+                query([a, b, c, none], face.sides[0].0)
             })
             .collect();
-        let mut locator = Locator {
+        let boundary_faces = queries.len();
+        queries.push(query(tables.tets[0], 0));
+        queries.extend(singles.map(|v| query([v, none, none, none], u32::MAX)));
+        let mut others = Search::new(points, &queries).pairs(points, tables, &queries);
+        others.sort_by_key(|&(query, _)| query);
+        let mut around: FxHashMap<VertexId, Vec<usize>> = FxHashMap::default();
+        for query in &queries[boundary_faces + 1..] {
+            around.insert(query.vertices[0], Vec::new());
+        }
+        let singles = others.partition_point(|&(query, _)| query as usize <= boundary_faces);
+        for (query, t) in others.split_off(singles) {
+            let found = around
+                .entry(queries[query as usize].vertices[0])
+                .or_default();
+            // A point that was asked for twice.
+            if !found.contains(&(t as usize)) {
+                found.push(t as usize);
+            }
+        }
+        Locator {
             points,
             tables,
-            nodes: Vec::new(),
-            order: (0..tables.tets.len() as u32).collect(),
-            bounds: Vec::new(),
-        };
-        locator.split(&bounds, 0, tables.tets.len());
-        locator.bounds = bounds;
-        locator
-    }
-
-    fn split(&mut self, bounds: &[Bounds], from: usize, to: usize) {
-        let members = &mut self.order[from..to];
-        let low = members
-            .iter()
-            .fold([f64::INFINITY; 3], |m, &t| least(m, &bounds[t as usize][0]));
-        let high = members.iter().fold([f64::NEG_INFINITY; 3], |m, &t| {
-            greatest(m, &bounds[t as usize][1])
-        });
-        let node = self.nodes.len();
-        self.nodes.push(Node {
-            bounds: [low, high],
-            range: [from, to],
-            second: 0,
-        });
-        if members.len() <= LEAF {
-            return;
+            others,
+            boundary_faces: boundary_faces as u32,
+            around,
         }
-        let axis = (0..3)
-            .max_by(|&i, &j| (high[i] - low[i]).total_cmp(&(high[j] - low[j])))
-            .expect("three axes");
-        let middle = members.len() / 2;
-        let centre =
-            |t: &u32| bounds[*t as usize][0][axis] / 2.0 + bounds[*t as usize][1][axis] / 2.0;
-        members.select_nth_unstable_by(middle, |s, t| {
-            centre(s).total_cmp(&centre(t)).then(s.cmp(t))
-        });
-        self.split(bounds, from, from + middle);
-        self.nodes[node].second = self.nodes.len();
-        self.split(bounds, from + middle, to);
     }
 
-    /// The tetrahedra whose closure contains the centroid of the points q, in increasing order.
-    pub(super) fn containing(&self, q: &[VertexId]) -> Vec<usize> {
-        let share = q.len() as f64;
-        let centre =
-            [0, 1, 2].map(|i| q.iter().map(|&v| self.points.at(v)[i] / share).sum::<f64>());
-        // At most six roundings of relative size 2⁻⁵³ on the way to the centre of up to five points.
-        let largest = q
-            .iter()
-            .flat_map(|&v| self.points.at(v))
-            .fold(0.0f64, |m, x| m.max(x.abs()));
-        let slack = 16.0 * f64::EPSILON * largest + f64::MIN_POSITIVE;
-        let misses = |[low, high]: Bounds| {
-            (0..3).any(|i| centre[i] < low[i] - slack || centre[i] > high[i] + slack)
-        };
-        let mut found = Vec::new();
-        let mut stack = vec![0];
-        while let Some(n) = stack.pop() {
-            let node = &self.nodes[n];
-            if misses(node.bounds) {
-                continue;
-            }
-            if node.second > 0 {
-                stack.extend([n + 1, node.second]);
-                continue;
-            }
-            let members = &self.order[node.range[0]..node.range[1]];
-            found.extend(
-                members
-                    .iter()
-                    .map(|&t| t as usize)
-                    .filter(|&t| !misses(self.bounds[t]) && self.contains(t, q)),
-            );
-        }
-        found.sort_unstable();
-        found
+    /// (i, t) for the tetrahedra t whose closure contains the centroid of the i-th boundary face, besides that of the face;
+    /// sorted.
+    pub(super) fn around_boundary(&self) -> &[(u32, u32)] {
+        let end = |&(query, _): &(u32, u32)| query < self.boundary_faces;
+        &self.others[..self.others.partition_point(end)]
     }
 
-    /// Whether the closed tetrahedron contains the centroid of q.
-    pub(super) fn contains(&self, t: usize, q: &[VertexId]) -> bool {
-        let tet = self.tables.tets[t];
-        INWARD
-            .iter()
-            .all(|face| !self.points.side(face.map(|k| tet[k]), q).is_negative())
+    /// The tetrahedra whose closure contains the centroid of the first one, besides this, in increasing order.
+    pub(super) fn around_first(&self) -> impl Iterator<Item = usize> + '_ {
+        let others = self.others[self.around_boundary().len()..].iter();
+        others.map(|&(_, t)| t as usize)
+    }
+
+    /// The tetrahedra whose closure contains a point that was asked for, in increasing order.
+    pub(super) fn containing(&self, v: VertexId) -> &[usize] {
+        self.around.get(&v).expect("a point that was located")
     }
 
     /// Whether a short step from the vertex v in the direction (u−v) + (w−v) stays in a tetrahedron (or its boundary).
@@ -145,10 +129,127 @@ impl<'a> Locator<'a> {
     }
 }
 
-fn least(m: [f64; 3], x: &[f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| m[i].min(x[i]))
+/// A tree of the points.
+struct Search {
+    nodes: Vec<Node>,
+    sites: Vec<Site>,
 }
 
-fn greatest(m: [f64; 3], x: &[f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| m[i].max(x[i]))
+impl Query {
+    fn vertices(&self) -> &[VertexId] {
+        let end = self.vertices.iter().position(|v| v.is_infinite());
+        &self.vertices[..end.unwrap_or(4)]
+    }
+
+    fn site(&self, points: &Points, query: usize) -> Site {
+        let vertices = self.vertices();
+        let share = vertices.len() as f64;
+        let at = [0, 1, 2].map(|i| {
+            vertices
+                .iter()
+                .map(|&v| points.at(v)[i] / share)
+                .sum::<f64>()
+        });
+        // At most six roundings of relative size 2⁻⁵³ on the way to the centre of up to four points.
+        let coordinates = vertices.iter().flat_map(|&v| points.at(v));
+        let largest = coordinates.fold(0.0f64, |m, x| m.max(x.abs()));
+        Site {
+            at,
+            slack: 16.0 * f64::EPSILON * largest + f64::MIN_POSITIVE + points.wobble(vertices),
+            query: query as u32,
+        }
+    }
+}
+
+impl Search {
+    fn new(points: &Points, queries: &[Query]) -> Search {
+        let sites = queries.iter().enumerate();
+        let mut search = Search {
+            nodes: Vec::new(),
+            sites: sites.map(|(i, query)| query.site(points, i)).collect(),
+        };
+        let all = search.sites.len();
+        search.split(0, all);
+        search
+    }
+
+    fn split(&mut self, from: usize, to: usize) {
+        let members = &mut self.sites[from..to];
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for site in members.iter() {
+            for i in 0..3 {
+                low[i] = low[i].min(site.at[i] - site.slack);
+                high[i] = high[i].max(site.at[i] + site.slack);
+            }
+        }
+        let node = self.nodes.len();
+        self.nodes.push(Node {
+            bounds: [low, high],
+            range: [from as u32, to as u32],
+            second: 0,
+        });
+        if members.len() <= LEAF {
+            return;
+        }
+        let axis = (0..3)
+            .max_by(|&i, &j| (high[i] - low[i]).total_cmp(&(high[j] - low[j])))
+            .expect("three axes");
+        let middle = members.len() / 2;
+        members.select_nth_unstable_by(middle, |s, t| {
+            s.at[axis]
+                .total_cmp(&t.at[axis])
+                .then(s.query.cmp(&t.query))
+        });
+        self.split(from, from + middle);
+        self.nodes[node].second = self.nodes.len() as u32;
+        self.split(from + middle, to);
+    }
+
+    /// (query, tetrahedron) for all tetrahedra that contain the point of a query and are not its own; the tetrahedra in
+    /// increasing order.
+    fn pairs(&self, points: &Points, tables: &Tables, queries: &[Query]) -> Vec<(u32, u32)> {
+        let mut pairs = Vec::new();
+        let mut stack = Vec::new();
+        for (t, &tet) in tables.tets.iter().enumerate() {
+            let wobble = points.wobble(&tet);
+            let mut low = points.at(tet[0]);
+            let mut high = low;
+            for v in &tet[1..] {
+                let p = points.at(*v);
+                for i in 0..3 {
+                    low[i] = if p[i] < low[i] { p[i] } else { low[i] };
+                    high[i] = if p[i] > high[i] { p[i] } else { high[i] };
+                }
+            }
+            for i in 0..3 {
+                low[i] -= wobble;
+                high[i] += wobble;
+            }
+            stack.push(0);
+            while let Some(n) = stack.pop() {
+                let node: &Node = &self.nodes[n as usize];
+                let [least, greatest] = &node.bounds;
+                if (0..3).any(|i| greatest[i] < low[i] || least[i] > high[i]) {
+                    continue;
+                }
+                if node.second > 0 {
+                    stack.extend([node.second, n + 1]);
+                    continue;
+                }
+                for site in &self.sites[node.range[0] as usize..node.range[1] as usize] {
+                    let Site { at, slack, query } = *site;
+                    if (0..3).any(|i| at[i] + slack < low[i] || at[i] - slack > high[i]) {
+                        continue;
+                    }
+                    let asked = &queries[query as usize];
+                    if asked.own != t as u32
+                        && points.contains(tet, &INWARD, asked.vertices(), (at, slack))
+                    {
+                        pairs.push((query, t as u32));
+                    }
+                }
+            }
+        }
+        pairs
+    }
 }

@@ -24,11 +24,16 @@
 //! facets. [`VerifyOptions::tolerance`] says how far off they may be to count as on them; what they then have to satisfy
 //! is exact. The verdict counts how often this was needed. With tolerance 0 nothing is forgiven.
 
+mod accumulator;
 mod adjacency;
 mod cover;
 mod delaunay;
+mod distance;
 mod domain;
 mod facets;
+mod filter;
+mod fixed;
+mod formulas;
 mod hull;
 mod input;
 mod listed;
@@ -40,7 +45,9 @@ mod positions;
 mod regions;
 mod segments;
 mod shells;
+mod slabs;
 mod structure;
+mod sums;
 mod tables;
 mod verdict;
 mod vertices;
@@ -131,7 +138,8 @@ impl Case<'_> {
 
 /// Checks that `mesh` is a constrained Delaunay tetrahedralization of `plc`, Steiner points permitted.
 ///
-/// O(n log n) for a mesh of n tetrahedra, plus what a facet with m edges costs for each of its faces, O(m).
+/// O(n log n) for a mesh of n tetrahedra, plus what a facet with m edges costs for each of its faces: O(k), where k of the
+/// edges are at the height of the face.
 pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict {
     let mut findings = Findings::new(options.cap);
     structure::check(plc, mesh, &mut findings);
@@ -150,6 +158,8 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
     let mut tets = mesh.tets.clone();
     orientation::check(&points, &mut tets, &mut findings);
     let tables = Tables::new(tets, mesh.vertices.len());
+    let unused = input.site_of.iter().filter(|v| !tables.is_used(**v));
+    let singles = unused.chain(&input.holes).chain(&input.regions).copied();
     let case = Case {
         plc,
         mesh,
@@ -157,7 +167,7 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         points: &points,
         tables: &tables,
         input: &input,
-        locator: Locator::new(&points, &tables),
+        locator: Locator::new(&points, &tables, singles),
         tolerance: options.tolerance * ulp(points.largest()),
         rounding: VerifyOptions::default().tolerance * ulp(points.largest()),
     };
@@ -169,7 +179,7 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
     delaunay::check(
         &case,
         &cover.constrained,
-        |f| cover.facet_of.get(&f).copied(),
+        |f| cover.facet_of(f),
         &mut findings,
     );
     domain::check(&case, &fates, &cover, &mut findings);

@@ -7,14 +7,20 @@
 //! together (Janiszewski), so that this names the parts of the plane rightly. The unbounded cell is in no cycle. The area
 //! of the facet is all bounded cells without those that hold a hole point.
 //!
-//! O(m log m) to build for m edges, O(m) for each point.
+//! O(m log m) to build for m edges. A point is looked for in the slab of the edges at its height ([`Slabs`]): O(k) for k
+//! edges there; of the two directions, the one with fewer edges in a slab is taken.
 
 use super::points::Points;
+use super::slabs::{self, Slabs};
+use super::sums::Areas;
 use super::tables::sorted2;
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Sign};
+use crate::number::{Dyadic, Sign};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+
+/// From how many edges on they are sorted by slabs.
+const MANY: usize = 24;
 
 /// The cells of a facet and which of them belong to it.
 pub(super) struct Area<'a> {
@@ -27,10 +33,17 @@ pub(super) struct Area<'a> {
     cycle_of: Vec<usize>,
     /// The half-edges of each cycle.
     cycles: Vec<Vec<usize>>,
-    /// The positive cycles of each connected component.
-    positive: Vec<Vec<usize>>,
-    /// The cells by name; a component's positive cycle, or none.
-    cells: BTreeMap<Vec<Option<usize>>, usize>,
+    /// The connected component of each cycle.
+    component_of: Vec<usize>,
+    /// Whether a cycle has a positive area.
+    is_positive: Vec<bool>,
+    /// The cells by name, that is the positive cycles, by their components; not used with one component.
+    cells: BTreeMap<Vec<usize>, usize>,
+    components: usize,
+    /// The rays' axes: [`Area::axes`], or the other way round.
+    ray: [usize; 2],
+    /// The edges by slabs across the ray, if there are many.
+    slabs: Option<Slabs>,
     /// The cell to the left of each cycle.
     cell_of: Vec<usize>,
     /// Whether a cell belongs to the area.
@@ -51,6 +64,71 @@ pub(super) fn crossing(
         (true, false) if points.side2d(axes, [a, b], q).is_positive() => 1,
         (false, true) if points.side2d(axes, [a, b], q).is_negative() => -1,
         _ => 0,
+    }
+}
+
+/// The centroid of points in the plane of two axes, the first of which is the direction of a ray.
+struct Probe<'a> {
+    points: &'a Points,
+    axes: [usize; 2],
+    q: &'a [VertexId],
+    /// Rounded.
+    at: [f64; 2],
+    /// How far off that may be.
+    slack: f64,
+}
+
+impl<'a> Probe<'a> {
+    fn new(points: &'a Points, axes: [usize; 2], q: &'a [VertexId]) -> Probe<'a> {
+        let share = q.len() as f64;
+        let at = axes.map(|i| q.iter().map(|&v| points.at(v)[i] / share).sum::<f64>());
+        // As in the locator: at most six roundings.
+        let coordinates = q.iter().flat_map(|&v| axes.map(|i| points.at(v)[i].abs()));
+        let largest = coordinates.fold(0.0, f64::max);
+        Probe {
+            points,
+            axes,
+            q,
+            at,
+            slack: 16.0 * f64::EPSILON * largest + f64::MIN_POSITIVE + points.wobble(q),
+        }
+    }
+
+    /// Bounds of the coordinate across the ray.
+    fn height(&self) -> [f64; 2] {
+        [self.at[1] - self.slack, self.at[1] + self.slack]
+    }
+
+    /// As [`crossing`].
+    fn crossing(&self, edge: [VertexId; 2]) -> i32 {
+        let [low, high] = self.height();
+        let wobble = self.points.wobble(&edge);
+        let [a, b] = edge.map(|v| {
+            let p = self.points.at(v);
+            self.axes.map(|i| p[i])
+        });
+        let above = |v: [f64; 2], id| {
+            if low > v[1] + wobble {
+                true
+            } else if high < v[1] - wobble {
+                false
+            } else {
+                !self.points.compare(self.axes[1], self.q, id).is_negative()
+            }
+        };
+        let (from, to) = (above(a, edge[0]), above(b, edge[1]));
+        if from == to {
+            return 0;
+        }
+        let quickly = self
+            .points
+            .quick_side2d([a, b], self.at, self.slack + wobble);
+        let side = quickly.unwrap_or_else(|| self.points.side2d(self.axes, edge, self.q));
+        match (from, side) {
+            (true, Sign::Positive) => 1,
+            (false, Sign::Negative) => -1,
+            _ => 0,
+        }
     }
 }
 
@@ -85,11 +163,16 @@ impl<'a> Area<'a> {
             half_edges,
             cycle_of,
             cycles,
-            positive: Vec::new(),
+            component_of: Vec::new(),
+            is_positive: Vec::new(),
             cells: BTreeMap::new(),
+            components: 0,
+            ray: axes,
+            slabs: None,
             cell_of: Vec::new(),
             kept: Vec::new(),
         };
+        area.sort_edges();
         area.name_cells();
         for &hole in holes {
             let cell = area.cell_at(&[hole]);
@@ -98,58 +181,92 @@ impl<'a> Area<'a> {
         area
     }
 
+    /// Chooses the rays and sorts the edges by slabs.
+    fn sort_edges(&mut self) {
+        if self.half_edges.len() / 2 < MANY {
+            return;
+        }
+        let intervals = |axis: usize| -> Vec<[f64; 2]> {
+            let edges = self.half_edges.iter().step_by(2);
+            let interval = |edge: &[VertexId; 2]| {
+                let wobble = self.points.wobble(edge);
+                let [a, b] = edge.map(|v| self.points.at(v)[axis]);
+                [a.min(b) - wobble, a.max(b) + wobble]
+            };
+            edges.map(interval).collect()
+        };
+        let [across, along] = [intervals(self.axes[1]), intervals(self.axes[0])];
+        self.slabs = Some(if 2.0 * slabs::depth(&along) < slabs::depth(&across) {
+            self.ray = [self.axes[1], self.axes[0]];
+            Slabs::new(&along)
+        } else {
+            Slabs::new(&across)
+        });
+    }
+
     fn name_cells(&mut self) {
-        // Cycles that share an edge (its two sides) or a vertex are in one component.
-        let mut component: BTreeMap<VertexId, usize> = BTreeMap::new();
-        let mut stack = Vec::new();
-        let mut neighbours: BTreeMap<VertexId, Vec<VertexId>> = BTreeMap::new();
-        for &[a, b] in &self.half_edges {
-            neighbours.entry(a).or_default().push(b);
-        }
-        let mut count = 0;
-        for &v in neighbours.keys() {
-            if component.contains_key(&v) {
-                continue;
-            }
-            stack.push(v);
-            while let Some(w) = stack.pop() {
-                if component.insert(w, count).is_none() {
-                    stack.extend(&neighbours[&w]);
-                }
-            }
-            count += 1;
-        }
-        self.positive = vec![Vec::new(); count];
-        let component_of: Vec<usize> = self
-            .cycles
-            .iter()
-            .map(|c| component[&self.half_edges[c[0]][0]])
-            .collect();
-        let is_positive: Vec<bool> = self
+        self.component_of = self.components();
+        self.components = self.component_of.iter().max().map_or(0, |k| k + 1);
+        self.is_positive = self
             .cycles
             .iter()
             .map(|c| self.cycle_sign(c).is_positive())
             .collect();
-        for (c, &k) in component_of.iter().enumerate() {
-            if is_positive[c] {
-                self.positive[k].push(c);
+        // The unbounded cell comes first.
+        let mut cells = 1;
+        if self.components != 1 {
+            self.cells.insert(Vec::new(), 0);
+        }
+        for c in 0..self.cycles.len() {
+            if self.components == 1 {
+                self.cell_of
+                    .push(if self.is_positive[c] { cells } else { 0 });
+                cells += usize::from(self.is_positive[c]);
+                continue;
+            }
+            let anchor = self.half_edges[self.cycles[c][0]][0];
+            let mut name = self.cycles_around(&[anchor]);
+            name.retain(|&other| self.component_of[other] != self.component_of[c]);
+            name.extend(self.is_positive[c].then_some(c));
+            name.sort_unstable_by_key(|&c| self.component_of[c]);
+            self.cell_of.push(*self.cells.entry(name).or_insert(cells));
+            cells = self.cells.len();
+        }
+        self.kept = vec![true; cells];
+        self.kept[0] = false;
+    }
+
+    /// For each cycle its component. Cycles that share an edge (its two sides) or a vertex are in one.
+    fn components(&self) -> Vec<usize> {
+        let mut vertices: Vec<VertexId> = self.half_edges.iter().map(|e| e[0]).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let place = |v: VertexId| vertices.binary_search(&v).expect("the vertex of an edge");
+        let mut leader: Vec<usize> = (0..vertices.len()).collect();
+        fn find(leader: &mut [usize], mut v: usize) -> usize {
+            while leader[v] != v {
+                leader[v] = leader[leader[v]];
+                v = leader[v];
+            }
+            v
+        }
+        for &[a, b] in self.half_edges.iter().step_by(2) {
+            let (a, b) = (find(&mut leader, place(a)), find(&mut leader, place(b)));
+            leader[a.max(b)] = a.min(b);
+        }
+        // In the order of their smallest vertices, which lead them.
+        let mut number = vec![0; vertices.len()];
+        let mut count = 0;
+        for v in 0..vertices.len() {
+            if leader[v] == v {
+                number[v] = count;
+                count += 1;
             }
         }
-        // The unbounded cell comes first.
-        self.cells.insert(vec![None; count], 0);
-        for c in 0..self.cycles.len() {
-            let anchor = self.half_edges[self.cycles[c][0]][0];
-            let name = (0..count)
-                .map(|k| match k == component_of[c] {
-                    true => is_positive[c].then_some(c),
-                    false => self.cycle_around(k, &[anchor]),
-                })
-                .collect();
-            let new = self.cells.len();
-            self.cell_of.push(*self.cells.entry(name).or_insert(new));
-        }
-        self.kept = vec![true; self.cells.len()];
-        self.kept[0] = false;
+        let cycles = self.cycles.iter();
+        cycles
+            .map(|c| number[find(&mut leader, place(self.half_edges[c[0]][0]))])
+            .collect()
     }
 
     /// The sign of the area to the left of a cycle.
@@ -158,34 +275,70 @@ impl<'a> Area<'a> {
         if let [a, b, c] = cycle {
             return self.points.orient2d(self.axes, [from(a), from(b), from(c)]);
         }
-        self.twice_area_of(cycle.iter().copied()).exact_sign()
-    }
-
-    fn twice_area_of(&self, half_edges: impl Iterator<Item = usize>) -> Dyadic {
-        let Some(&[origin, _]) = self.half_edges.first() else {
-            return Dyadic::ZERO;
+        let Some((&first, rest)) = cycle.split_first() else {
+            return Sign::Zero;
         };
-        half_edges.fold(Dyadic::ZERO, |sum, h| {
-            let [a, b] = self.half_edges[h];
-            sum + &self.points.area(self.axes, [origin, a, b])
-        })
+        let origin = from(&first);
+        let corners = rest.iter().map(|&h| self.half_edges[h]);
+        self.points
+            .quick_area(self.axes, origin, corners)
+            .unwrap_or_else(|| {
+                let mut sum = Areas::new(self.axes);
+                self.add_areas(cycle.iter().copied(), &mut sum);
+                sum.sign()
+            })
     }
 
-    /// The positive cycle of a component that contains the centroid of q.
-    fn cycle_around(&self, component: usize, q: &[VertexId]) -> Option<usize> {
-        self.positive[component].iter().copied().find(|&c| {
-            let crossings = self.cycles[c]
-                .iter()
-                .map(|&h| crossing(self.points, self.axes, self.half_edges[h], q));
-            crossings.sum::<i32>() != 0
-        })
+    /// Adds the areas of the triangles between half-edges and one vertex.
+    fn add_areas(&self, half_edges: impl Iterator<Item = usize>, sum: &mut Areas) {
+        if let Some(&[origin, _]) = self.half_edges.first() {
+            for h in half_edges {
+                let [a, b] = self.half_edges[h];
+                if a != origin && b != origin {
+                    sum.add(self.points, [origin, a, b]);
+                }
+            }
+        }
+    }
+
+    /// The positive cycles that contain the centroid of q, one of each component at most, in order of components.
+    fn cycles_around(&self, q: &[VertexId]) -> Vec<usize> {
+        let probe = Probe::new(self.points, self.ray, q);
+        let mut turns: Vec<(usize, usize, i32)> = Vec::new();
+        let mut visit = |e: usize| {
+            let turn = probe.crossing(self.half_edges[2 * e]);
+            for (h, turn) in [(2 * e, turn), (2 * e + 1, -turn)] {
+                let c = self.cycle_of[h];
+                if turn != 0 && self.is_positive[c] {
+                    turns.push((self.component_of[c], c, turn));
+                }
+            }
+        };
+        match &self.slabs {
+            None => (0..self.half_edges.len() / 2).for_each(&mut visit),
+            Some(slabs) => {
+                let mut found = Vec::new();
+                let [low, high] = probe.height();
+                slabs.around(low, high, &mut found);
+                found.into_iter().for_each(|e| visit(e as usize));
+            }
+        }
+        turns.sort_unstable();
+        let mut around: Vec<usize> = turns
+            .chunk_by(|x, y| x.1 == y.1)
+            .filter(|turns| turns.iter().map(|t| t.2).sum::<i32>() != 0)
+            .map(|turns| turns[0].1)
+            .collect();
+        around.dedup_by_key(|&mut c| self.component_of[c]);
+        around
     }
 
     /// The cell that contains the centroid of q; the unbounded one is 0.
     pub(super) fn cell_at(&self, q: &[VertexId]) -> usize {
-        let name: Vec<_> = (0..self.positive.len())
-            .map(|k| self.cycle_around(k, q))
-            .collect();
+        let name = self.cycles_around(q);
+        if self.components == 1 {
+            return name.first().map_or(0, |&c| self.cell_of[c]);
+        }
         // A name that no cycle has is possible only if edges cross: no cell.
         self.cells.get(&name).copied().unwrap_or(0)
     }
@@ -229,7 +382,14 @@ impl<'a> Area<'a> {
 
     /// Twice the area, exactly.
     pub(super) fn twice_area(&self) -> Dyadic {
-        self.twice_area_of(self.boundary_half_edges())
+        let mut sum = Areas::new(self.axes);
+        self.add_areas(self.boundary_half_edges(), &mut sum);
+        sum.take_twice()
+    }
+
+    /// Adds the area with the other sign.
+    pub(super) fn subtract_from(&self, sum: &mut Areas) {
+        self.add_areas(self.boundary_half_edges().map(|h| h ^ 1), sum);
     }
 
     /// The directed edges with a bounded cell to their left, dangling ones included.
@@ -245,7 +405,7 @@ impl<'a> Area<'a> {
     pub(super) fn corner(&self, cell: usize) -> Option<[VertexId; 3]> {
         let cycle = (0..self.cycles.len())
             .filter(|&c| self.cell_of[c] == cell)
-            .find(|&c| self.positive.iter().any(|p| p.contains(&c)))?;
+            .find(|&c| self.is_positive[c])?;
         let cycle = &self.cycles[cycle];
         let order = |v: VertexId, w: VertexId| {
             let [x, y] = self.axes.map(|i| self.points.order(i, v, w));

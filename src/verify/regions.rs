@@ -21,7 +21,7 @@ pub(super) fn check(case: &Case, constrained: &[bool], findings: &mut Findings) 
     }
     for (i, (region, &point)) in case.plc.regions.iter().zip(&case.input.regions).enumerate() {
         // A point on a face between two regions names either.
-        let around = case.locator.containing(&[point]);
+        let around = case.locator.containing(point);
         let Some(&tet) = around.first() else { continue };
         findings.counts.regions += 1;
         if around.iter().all(|&t| attributes[t] != region.attribute) {

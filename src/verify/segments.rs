@@ -19,7 +19,9 @@ use std::cmp::Ordering;
 /// What became of a segment.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fate {
-    /// It is this chain of vertices.
+    /// It is an edge.
+    Edge,
+    /// It is this chain of vertices, three or more.
     Chain(Vec<VertexId>),
     /// It is gone because the two facets at it are one.
     Merged,
@@ -55,9 +57,11 @@ pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
         let chain =
             chain(case, edge.ends, &is_listed).or_else(|| chain(case, edge.ends, &|_| true));
         let unlisted = case.options.merge_angle.is_some()
-            && chain.as_ref().is_some_and(|c| is_unlisted(&listed, c));
+            && chain
+                .as_ref()
+                .is_some_and(|c| is_unlisted(&listed, c, edge.ends));
         let fate = if let Some(chain) = chain.filter(|_| !unlisted || !is_mergeable(case, e)) {
-            Fate::Chain(chain)
+            chain
         } else if is_mergeable(case, e) {
             Fate::Merged
         } else if leaves(case, edge.ends) {
@@ -67,6 +71,10 @@ pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
         };
         let counts = &mut findings.counts;
         match &fate {
+            Fate::Edge => {
+                counts.segments += 1;
+                counts.subsegments += 1;
+            }
             Fate::Chain(chain) => {
                 counts.segments += 1;
                 counts.subsegments += chain.len() - 1;
@@ -88,9 +96,8 @@ pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
 }
 
 /// Whether the mesh lists edges, but not those of the chain.
-fn is_unlisted(listed: &FxHashSet<[VertexId; 2]>, chain: &[VertexId]) -> bool {
-    let is_listed = |w: &[VertexId]| listed.contains(&sorted2([w[0], w[1]]));
-    !listed.is_empty() && !chain.windows(2).any(is_listed)
+fn is_unlisted(listed: &FxHashSet<[VertexId; 2]>, chain: &Fate, ends: [VertexId; 2]) -> bool {
+    !listed.is_empty() && !chain.edges(ends).iter().any(|e| listed.contains(e))
 }
 
 /// Reports an input edge as missing.
@@ -102,14 +109,14 @@ pub(super) fn report(case: &Case, e: usize, findings: &mut Findings) {
     });
 }
 
-/// A chain of edges that `may_use` permits.
+/// A chain of edges that `may_use` permits, [`Fate::Edge`] or [`Fate::Chain`].
 fn chain(
     case: &Case,
     [a, b]: [VertexId; 2],
     may_use: &dyn Fn([VertexId; 2]) -> bool,
-) -> Option<Vec<VertexId>> {
-    if case.tables.has_edge([a, b]) && may_use([a, b]) {
-        return Some(vec![a, b]);
+) -> Option<Fate> {
+    if may_use([a, b]) && case.tables.has_edge([a, b]) {
+        return Some(Fate::Edge);
     }
     if !case.tables.is_used(a) || !case.tables.is_used(b) {
         return None;
@@ -128,13 +135,12 @@ fn chain(
     let mut path = vec![a];
     while let Some(&v) = path.last() {
         if v == b {
-            return Some(path);
+            return Some(Fate::Chain(path));
         }
         let step = case
             .tables
             .neighbours(v)
-            .iter()
-            .copied()
+            .into_iter()
             .filter(|&w| may_use([v, w]) && order(v, w).is_lt())
             .filter(|&w| w == b || order(w, b).is_lt())
             .filter(|w| !tried.contains(w) && (*w == b || is_on(case, [a, b], *w)))

@@ -12,20 +12,55 @@
 use super::Case;
 use super::facets::OutsidePart;
 use super::planar::crossing;
+use super::sums::Cones;
 use super::tables::sorted2;
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Sign, Vec3};
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// A wall.
 struct Wall {
-    /// Its boundary, with the wall to the left for one who looks against the normal.
-    edges: Vec<[VertexId; 2]>,
+    /// Its boundary, with the wall to the left for one who looks against the normal: a range of [`Walls::edges`].
+    edges: Range<usize>,
     /// Three points of its plane, counterclockwise for that one.
     frame: [VertexId; 3],
     /// The boundary face, if it is one.
     face: Option<usize>,
+}
+
+/// All walls.
+struct Walls {
+    walls: Vec<Wall>,
+    edges: Vec<[VertexId; 2]>,
+}
+
+impl Walls {
+    fn new(case: &Case, outside: &[OutsidePart]) -> Walls {
+        let mut walls = Walls {
+            walls: Vec::new(),
+            edges: Vec::new(),
+        };
+        for (f, face) in case.tables.boundary() {
+            let [a, b, c] = case.tables.inward(face.sides[0]);
+            walls.push(&[[a, c], [c, b], [b, a]], [a, c, b], Some(f));
+        }
+        for part in outside {
+            walls.push(&part.boundary, part.frame, None);
+        }
+        walls
+    }
+
+    fn push(&mut self, edges: &[[VertexId; 2]], frame: [VertexId; 3], face: Option<usize>) {
+        let start = self.edges.len();
+        self.edges.extend(edges);
+        let edges = start..self.edges.len();
+        self.walls.push(Wall { edges, frame, face });
+    }
+
+    fn edges(&self, wall: &Wall) -> &[[VertexId; 2]] {
+        &self.edges[wall.edges.clone()]
+    }
 }
 
 /// One side of a wall: 2·wall before it (where the normal points), 2·wall + 1 behind it.
@@ -51,40 +86,30 @@ pub(super) struct Shells {
     pub(super) contradictions: Vec<[VertexId; 2]>,
 }
 
-/// Six times the signed volume between the origin and a triangle.
-pub(super) fn cone(case: &Case, triangle: [VertexId; 3]) -> Dyadic {
-    let [a, b, c] = triangle.map(|v| case.points.exact(v));
-    a.dot(&b.cross(&c))
-}
-
 impl Shells {
     pub(super) fn new(case: &Case, outside: &[OutsidePart]) -> Shells {
-        let faces = case.tables.boundary().map(|(f, face)| {
-            let [a, b, c] = case.tables.inward(face.sides[0]);
-            Wall {
-                edges: vec![[a, c], [c, b], [b, a]],
-                frame: [a, c, b],
-                face: Some(f),
-            }
-        });
-        let sheets = outside.iter().map(|part| Wall {
-            edges: part.boundary.clone(),
-            frame: part.frame,
-            face: None,
-        });
-        let walls: Vec<Wall> = faces.chain(sheets).collect();
+        let all = Walls::new(case, outside);
+        let walls = &all.walls;
         let mut leader: Vec<Side> = (0..2 * walls.len()).collect();
         let mut contradictions = Vec::new();
-        for (edge, mut around) in walls_around_edges(&walls) {
-            sort_around(case, edge, &walls, &mut around);
-            for (i, &(w, forward)) in around.iter().enumerate() {
+        let mut incidences = incidences(&all);
+        for around in incidences.chunk_by_mut(|x, y| x.edge == y.edge) {
+            let edge = around[0].edge;
+            sort_around(case, edge, walls, around);
+            for (
+                i,
+                &Incidence {
+                    wall: w, forward, ..
+                },
+            ) in around.iter().enumerate()
+            {
                 // Counterclockwise around the edge means along the normal of a wall that has the edge forwards.
-                let (x, other_forward) = around[(i + 1) % around.len()];
+                let next = &around[(i + 1) % around.len()];
                 let sides = [
-                    2 * w + usize::from(!forward),
-                    2 * x + usize::from(other_forward),
+                    2 * w as usize + usize::from(!forward),
+                    2 * next.wall as usize + usize::from(next.forward),
                 ];
-                match sides.map(|side| is_empty(&walls, side)) {
+                match sides.map(|side| is_empty(walls, side)) {
                     [true, true] => join(&mut leader, sides),
                     [false, false] => {}
                     _ => contradictions.push(edge),
@@ -93,7 +118,7 @@ impl Shells {
         }
         contradictions.dedup();
         Shells {
-            shells: gather(case, &walls, &mut leader),
+            shells: gather(case, &all, &mut leader),
             contradictions,
         }
     }
@@ -142,30 +167,41 @@ fn join(leader: &mut [Side], sides: [Side; 2]) {
     leader[s.max(t)] = s.min(t);
 }
 
-/// For each edge, the walls that have it and whether they have it from the smaller to the larger end.
-fn walls_around_edges(walls: &[Wall]) -> BTreeMap<[VertexId; 2], Vec<(usize, bool)>> {
-    let mut around: BTreeMap<[VertexId; 2], Vec<(usize, bool)>> = BTreeMap::new();
-    for (w, wall) in walls.iter().enumerate() {
-        for &edge in &wall.edges {
-            around
-                .entry(sorted2(edge))
-                .or_default()
-                .push((w, edge[0] < edge[1]));
-        }
+/// A wall at an edge.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Incidence {
+    /// Smaller end first.
+    edge: [VertexId; 2],
+    wall: u32,
+    /// Whether the wall has the edge from the smaller to the larger end.
+    forward: bool,
+}
+
+/// All walls at all edges, by edges.
+fn incidences(walls: &Walls) -> Vec<Incidence> {
+    let mut incidences = Vec::with_capacity(walls.edges.len());
+    for (w, wall) in walls.walls.iter().enumerate() {
+        incidences.extend(walls.edges(wall).iter().map(|&edge| Incidence {
+            edge: sorted2(edge),
+            wall: w as u32,
+            forward: edge[0] < edge[1],
+        }));
     }
-    around
+    // Stable: a wall that has an edge from both sides keeps its order.
+    incidences.sort_by_key(|i| (i.edge, i.wall));
+    incidences
 }
 
 /// Sorts the walls counterclockwise around the edge from its smaller to its larger end. Two need no order.
-fn sort_around(case: &Case, edge: [VertexId; 2], walls: &[Wall], around: &mut [(usize, bool)]) {
+fn sort_around(case: &Case, edge: [VertexId; 2], walls: &[Wall], around: &mut [Incidence]) {
     if around.len() <= 2 {
         return;
     }
     let [a, b] = edge.map(|v| case.points.exact(v));
     let axis = b.sub(&a);
     // n × (direction of the edge in the wall) points into the wall.
-    let inward = |&(w, forward): &(usize, bool)| {
-        let [p, q, r] = walls[w].frame.map(|v| case.points.exact(v));
+    let inward = |&Incidence { wall, forward, .. }: &Incidence| {
+        let [p, q, r] = walls[wall as usize].frame.map(|v| case.points.exact(v));
         let normal = q.sub(&p).cross(&r.sub(&p));
         if forward {
             normal.cross(&axis)
@@ -173,7 +209,7 @@ fn sort_around(case: &Case, edge: [VertexId; 2], walls: &[Wall], around: &mut [(
             axis.cross(&normal)
         }
     };
-    let mut directions: Vec<((usize, bool), Vec3<Dyadic>)> =
+    let mut directions: Vec<(Incidence, Vec3<Dyadic>)> =
         around.iter().map(|wall| (*wall, inward(wall))).collect();
     let first = directions[0].1.clone();
     let turn = |d: &Vec3<Dyadic>, e: &Vec3<Dyadic>| axis.dot(&d.cross(e)).exact_sign();
@@ -198,30 +234,41 @@ fn sort_around(case: &Case, edge: [VertexId; 2], walls: &[Wall], around: &mut [(
 }
 
 /// The shells in order of their first wall.
-fn gather(case: &Case, walls: &[Wall], leader: &mut [Side]) -> Vec<Shell> {
-    let mut shells: BTreeMap<Side, Shell> = BTreeMap::new();
-    for side in (0..2 * walls.len()).filter(|&side| is_empty(walls, side)) {
-        let shell = shells.entry(find(leader, side)).or_insert_with(|| Shell {
-            triangles: Vec::new(),
+fn gather(case: &Case, all: &Walls, leader: &mut [Side]) -> Vec<Shell> {
+    let walls = &all.walls;
+    // A leader is the first side of its shell.
+    let mut sides: Vec<(Side, Side)> = (0..2 * walls.len())
+        .filter(|&side| is_empty(walls, side))
+        .map(|side| (find(leader, side), side))
+        .collect();
+    sides.sort_unstable();
+    let mut cones = Cones::new();
+    let shells = sides.chunk_by(|x, y| x.0 == y.0).map(|sides| {
+        let mut shell = Shell {
+            triangles: Vec::with_capacity(sides.len()),
             faces: Vec::new(),
-            walls: 0,
+            walls: sides.len(),
             volume: Dyadic::ZERO,
-        });
-        let wall = &walls[side / 2];
-        shell.walls += 1;
-        shell.faces.extend(wall.face);
-        let Some(&[apex, _]) = wall.edges.first() else {
-            continue;
         };
-        for &[a, b] in wall.edges.iter().filter(|e| !e.contains(&apex)) {
-            let triangle = if side.is_multiple_of(2) {
-                [apex, a, b]
-            } else {
-                [apex, b, a]
+        for &(_, side) in sides {
+            let wall = &walls[side / 2];
+            shell.faces.extend(wall.face);
+            let edges = all.edges(wall);
+            let Some(&[apex, _]) = edges.first() else {
+                continue;
             };
-            shell.triangles.push(triangle);
-            shell.volume = shell.volume.clone() + &cone(case, triangle);
+            for &[a, b] in edges.iter().filter(|e| !e.contains(&apex)) {
+                let triangle = if side.is_multiple_of(2) {
+                    [apex, a, b]
+                } else {
+                    [apex, b, a]
+                };
+                shell.triangles.push(triangle);
+                cones.add(case.points, triangle);
+            }
         }
-    }
-    shells.into_values().collect()
+        shell.volume = cones.volume();
+        shell
+    });
+    shells.collect()
 }

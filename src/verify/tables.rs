@@ -1,6 +1,7 @@
 //! The tetrahedra with their faces and edges looked up by vertices: sorted arrays, nothing that the mesh itself claims.
 
 use crate::mesh::VertexId;
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// The face opposite each corner, ordered such that the corner is on its positive side (the normal points inwards).
@@ -22,12 +23,27 @@ pub(super) struct Tables {
     pub(super) tets: Vec<[VertexId; 4]>,
     /// The faces, sorted by key.
     pub(super) faces: Vec<Face>,
-    /// (smaller end, larger end, face) for all edges of all faces, sorted.
-    fans: Vec<(VertexId, VertexId, u32)>,
-    star_start: Vec<u32>,
+    /// The faces whose smallest vertex is v: `faces[face_start[v]..face_start[v + 1]]`.
+    face_start: Vec<u32>,
+    /// How many tetrahedra each vertex has.
+    valence: Vec<u32>,
+    /// The tetrahedra at each vertex; many meshes are verified without.
+    stars: OnceCell<Stars>,
+}
+
+/// `star[start[v]..start[v + 1]]`.
+struct Stars {
+    start: Vec<u32>,
     star: Vec<u32>,
-    neighbour_start: Vec<u32>,
-    neighbours: Vec<VertexId>,
+}
+
+/// A tetrahedron's use of a face, of which the smallest vertex is known.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Use {
+    /// The second and third vertex.
+    others: u64,
+    tet: u32,
+    corner: u8,
 }
 
 /// The two, smaller first.
@@ -36,92 +52,168 @@ pub(super) fn sorted2([a, b]: [VertexId; 2]) -> [VertexId; 2] {
 }
 
 /// The three in increasing order.
-pub(super) fn sorted3(mut t: [VertexId; 3]) -> [VertexId; 3] {
-    t.sort_unstable();
-    t
+fn sorted3([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+    let (a, b) = (a.min(b), a.max(b));
+    let (b, c) = (b.min(c), b.max(c));
+    [a.min(b), a.max(b), c]
 }
 
 impl Tables {
     /// `vertices` is the number of points that tetrahedra may name.
     pub(super) fn new(tets: Vec<[VertexId; 4]>, vertices: usize) -> Tables {
-        let mut uses: Vec<([VertexId; 3], u32, u8)> = Vec::with_capacity(4 * tets.len());
-        for (t, tet) in tets.iter().enumerate() {
-            for (i, face) in INWARD.iter().enumerate() {
-                uses.push((sorted3(face.map(|k| tet[k])), t as u32, i as u8));
+        // Of the four faces, the three at the smallest vertex are gathered there, and one at the second.
+        let ordered = || tets.iter().map(with_corners);
+        let mut start = vec![0u32; vertices + 1];
+        let mut valence = vec![0u32; vertices];
+        for tet in ordered() {
+            start[tet[0].0.index() + 1] += 3;
+            start[tet[1].0.index() + 1] += 1;
+            tet.iter().for_each(|(v, _)| valence[v.index()] += 1);
+        }
+        for i in 0..vertices {
+            start[i + 1] += start[i];
+        }
+        let blank = Use {
+            others: 0,
+            tet: 0,
+            corner: 0,
+        };
+        let mut uses = vec![blank; 4 * tets.len()];
+        let mut next = start.clone();
+        for (t, [a, b, c, d]) in ordered().enumerate() {
+            for ([x, y, z], apex) in [
+                ([a, b, c], d),
+                ([a, b, d], c),
+                ([a, c, d], b),
+                ([b, c, d], a),
+            ] {
+                let place = &mut next[x.0.index()];
+                uses[*place as usize] = Use {
+                    others: u64::from(y.0.0) << 32 | u64::from(z.0.0),
+                    tet: t as u32,
+                    corner: apex.1,
+                };
+                *place += 1;
             }
         }
-        uses.sort_unstable();
-        let faces: Vec<Face> = uses
-            .chunk_by(|x, y| x.0 == y.0)
-            .map(|group| Face {
-                key: group[0].0,
-                sides: [0, group.len().min(2) - 1].map(|k| (group[k].1, group[k].2)),
-                tets: group.len() as u32,
-            })
-            .collect();
-        let mut fans = Vec::with_capacity(3 * faces.len());
-        for (f, Face { key: [a, b, c], .. }) in faces.iter().enumerate() {
-            fans.extend([(*a, *b, f as u32), (*a, *c, f as u32), (*b, *c, f as u32)]);
+        let mut faces = Vec::with_capacity(2 * tets.len() + tets.len() / 4);
+        let mut face_start = Vec::with_capacity(vertices + 1);
+        for v in 0..vertices {
+            face_start.push(faces.len() as u32);
+            let uses = &mut uses[start[v] as usize..start[v + 1] as usize];
+            uses.sort_unstable();
+            faces.extend(uses.chunk_by(|x, y| x.others == y.others).map(|group| {
+                let second = &group[group.len().min(2) - 1];
+                let (b, c) = ((group[0].others >> 32) as u32, group[0].others as u32);
+                Face {
+                    key: [VertexId::new(v), VertexId(b), VertexId(c)],
+                    sides: [&group[0], second].map(|u| (u.tet, u.corner)),
+                    tets: group.len() as u32,
+                }
+            }));
         }
-        fans.sort_unstable();
-        let (star_start, star) = rows(
-            vertices,
-            0,
-            tets.iter()
-                .enumerate()
-                .flat_map(|(t, tet)| tet.map(|v| (v, t as u32))),
-        );
-        let edges = fans.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1));
-        let (neighbour_start, neighbours) = rows(
-            vertices,
-            VertexId(0),
-            edges.flat_map(|e| [(e[0].0, e[0].1), (e[0].1, e[0].0)]),
-        );
+        face_start.push(faces.len() as u32);
         Tables {
             tets,
             faces,
-            fans,
-            star_start,
-            star,
-            neighbour_start,
-            neighbours,
+            face_start,
+            valence,
+            stars: OnceCell::new(),
         }
     }
 
-    /// The tetrahedra at a vertex; none for a point outside the mesh.
+    /// The tetrahedra at a vertex, in increasing order; none for a point outside the mesh.
     pub(super) fn star(&self, v: VertexId) -> &[u32] {
-        &self.star[row(&self.star_start, v)]
+        if !self.is_used(v) {
+            return &[];
+        }
+        let stars = self.stars.get_or_init(|| {
+            let mut start = Vec::with_capacity(self.valence.len() + 1);
+            start.push(0);
+            for valence in &self.valence {
+                start.push(start[start.len() - 1] + valence);
+            }
+            let mut next = start.clone();
+            let mut star = vec![0; 4 * self.tets.len()];
+            for (t, tet) in self.tets.iter().enumerate() {
+                for v in tet {
+                    star[next[v.index()] as usize] = t as u32;
+                    next[v.index()] += 1;
+                }
+            }
+            Stars { start, star }
+        });
+        &stars.star[stars.start[v.index()] as usize..stars.start[v.index() + 1] as usize]
     }
 
-    /// The vertices that an edge joins to v.
-    pub(super) fn neighbours(&self, v: VertexId) -> &[VertexId] {
-        &self.neighbours[row(&self.neighbour_start, v)]
+    /// The vertices that an edge joins to v, in increasing order.
+    pub(super) fn neighbours(&self, v: VertexId) -> Vec<VertexId> {
+        let tets = self.star(v).iter().flat_map(|&t| self.tets[t as usize]);
+        let mut neighbours: Vec<VertexId> = tets.filter(|&w| w != v).collect();
+        neighbours.sort_unstable();
+        neighbours.dedup();
+        neighbours
     }
 
     /// Whether any tetrahedron has the vertex.
     pub(super) fn is_used(&self, v: VertexId) -> bool {
-        !self.star(v).is_empty()
+        self.valence.get(v.index()).is_some_and(|&n| n > 0)
     }
 
-    /// The faces around an edge.
-    pub(super) fn fan(&self, edge: [VertexId; 2]) -> impl Iterator<Item = usize> + '_ {
-        let [a, b] = sorted2(edge);
-        let start = self.fans.partition_point(|&(x, y, _)| (x, y) < (a, b));
-        self.fans[start..]
-            .iter()
-            .take_while(move |&&(x, y, _)| (x, y) == (a, b))
-            .map(|&(_, _, f)| f as usize)
+    /// The tetrahedra around an edge.
+    fn around(&self, [a, b]: [VertexId; 2]) -> impl Iterator<Item = u32> + '_ {
+        let valence = |v: VertexId| self.valence.get(v.index()).copied();
+        let (hub, other) = if valence(a) <= valence(b) {
+            (a, b)
+        } else {
+            (b, a)
+        };
+        let star = self.star(hub).iter().copied();
+        star.filter(move |&t| self.tets[t as usize].contains(&other))
+    }
+
+    /// The faces around an edge, in increasing order.
+    pub(super) fn fan(&self, edge: [VertexId; 2]) -> Vec<usize> {
+        let mut fan = Vec::new();
+        for t in self.around(edge) {
+            let ends = self.tets[t as usize]
+                .into_iter()
+                .filter(|v| !edge.contains(v));
+            fan.extend(ends.map(|v| {
+                self.find_face([edge[0], edge[1], v])
+                    .expect("the face of a tetrahedron")
+            }));
+        }
+        fan.sort_unstable();
+        fan.dedup();
+        fan
     }
 
     /// Whether ab is an edge.
     pub(super) fn has_edge(&self, edge: [VertexId; 2]) -> bool {
-        self.fan(edge).next().is_some()
+        let [a, b] = sorted2(edge);
+        if !self.is_used(a) || !self.is_used(b) {
+            return false;
+        }
+        // Most edges have a face that has no smaller vertex.
+        let faces = &self.faces[self.faces_from(a)];
+        faces.iter().any(|f| f.key[1] == b || f.key[2] == b) || self.around(edge).next().is_some()
+    }
+
+    fn faces_from(&self, v: VertexId) -> Range<usize> {
+        match self.face_start.get(v.index()..v.index() + 2) {
+            Some(&[start, end]) => start as usize..end as usize,
+            _ => 0..0,
+        }
     }
 
     /// The face with these vertices.
     pub(super) fn find_face(&self, face: [VertexId; 3]) -> Option<usize> {
         let key = sorted3(face);
-        self.faces.binary_search_by(|f| f.key.cmp(&key)).ok()
+        let range = self.faces_from(key[0]);
+        let faces = &self.faces[range.clone()];
+        let found = faces.binary_search_by(|f| f.key[1..].cmp(&key[1..])).ok()?;
+        Some(range.start + found)
     }
 
     /// A side of a face, ordered such that its tetrahedron is on the positive side of the plane.
@@ -141,34 +233,16 @@ impl Tables {
     }
 }
 
-/// Pairs (vertex, item) gathered by vertex: the items of v are `items[start[v]..start[v + 1]]`.
-fn rows<T: Copy>(
-    vertices: usize,
-    blank: T,
-    pairs: impl Iterator<Item = (VertexId, T)> + Clone,
-) -> (Vec<u32>, Vec<T>) {
-    let mut start = vec![0u32; vertices + 1];
-    for (v, _) in pairs.clone() {
-        start[v.index() + 1] += 1;
+/// The vertices of a tetrahedron in increasing order, with their corners.
+#[inline]
+fn with_corners(tet: &[VertexId; 4]) -> [(VertexId, u8); 4] {
+    let mut sorted = [(tet[0], 0), (tet[1], 1), (tet[2], 2), (tet[3], 3)];
+    for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
+        if sorted[j].0 < sorted[i].0 {
+            sorted.swap(i, j);
+        }
     }
-    for i in 0..vertices {
-        start[i + 1] += start[i];
-    }
-    let mut next = start.clone();
-    let mut items = vec![blank; start[vertices] as usize];
-    for (v, item) in pairs {
-        items[next[v.index()] as usize] = item;
-        next[v.index()] += 1;
-    }
-    (start, items)
-}
-
-fn row(start: &[u32], v: VertexId) -> Range<usize> {
-    if v.index() + 1 < start.len() {
-        start[v.index()] as usize..start[v.index() + 1] as usize
-    } else {
-        0..0
-    }
+    sorted
 }
 
 #[cfg(test)]
@@ -197,7 +271,8 @@ mod tests {
         assert_eq!(tables.star(v(0)), [0, 1]);
         assert!(tables.has_edge([v(4), v(0)]) && !tables.has_edge([v(3), v(4)]));
         assert!(!tables.is_used(v(5)) && !tables.is_used(v(9)));
-        assert_eq!(tables.fan([v(1), v(0)]).count(), 3);
+        assert_eq!(tables.fan([v(1), v(0)]).len(), 3);
+        assert!(tables.fan([v(3), v(4)]).is_empty());
         assert!(tables.find_face([v(2), v(1), v(0)]).is_some());
     }
 }

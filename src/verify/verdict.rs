@@ -201,6 +201,12 @@ impl Findings {
         self.totals.is_empty()
     }
 
+    /// Whether every face has one tetrahedron, or one on each side, as far as was checked.
+    pub(super) fn is_manifold(&self) -> bool {
+        let broken = ["crowded face", "same side"];
+        !broken.iter().any(|kind| self.totals.contains_key(kind))
+    }
+
     pub(super) fn report(&mut self, violation: Violation) {
         let total = self.totals.entry(violation.kind()).or_insert(0);
         *total += 1;

@@ -33,7 +33,7 @@ pub(super) fn check(case: &Case, findings: &mut Findings) {
         if case.tables.is_used(site) {
             continue;
         }
-        if let Some(&t) = case.locator.containing(&[site]).first() {
+        if let Some(&t) = case.locator.containing(site).first() {
             findings.report(Violation::MissingVertex {
                 vertex: case.named(i, site),
                 tet: Some(t),

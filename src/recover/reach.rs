@@ -1,0 +1,263 @@
+//! How far circumspheres reach along a subsegment.
+//!
+//! A new vertex at A + u(B − A) has a conflict zone: the tetrahedra whose circumspheres contain it. For each tetrahedron
+//! these u are an interval, between the roots of a quadratic polynomial. So one search for the tetrahedra whose intervals
+//! are not empty tells the conflict zones of all u: an edge vanishes for those u that are in the intervals of all its
+//! tetrahedra, and a vertex is joined to the new one for those that are in the interval of one of its tetrahedra.
+//!
+//! In floats: what they tell is for choosing places, not for deciding.
+
+use super::obstruction::cross;
+use super::split::{dot, sub};
+use super::turn::inner_edges;
+use crate::mesh::{TetId, TetMesh, VertexId};
+use crate::predicate::PointStore;
+
+/// An open interval; empty if its ends are not in order.
+pub(super) type Span = [f64; 2];
+
+const EMPTY: Span = [f64::INFINITY, f64::NEG_INFINITY];
+
+/// Vertices are taken to lie in the plane of a hull facet if they are this near to it, relative to their distance from
+/// its vertices.
+const FLAT: f64 = 1e-10;
+
+/// The tetrahedra whose circumspheres reach a part of a subsegment, and their intervals. Memory is used again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Reaches {
+    /// For each tetrahedron the search that last came to it, and its place in `tets`, or `NOWHERE`.
+    marks: Vec<(u32, u32)>,
+    stamp: u32,
+    tets: Vec<TetId>,
+    spans: Vec<Span>,
+}
+
+const NOWHERE: u32 = u32::MAX;
+
+impl Reaches {
+    /// Finds the tetrahedra that reach the part `range` of ab, starting with `seeds`; gives up if there are more than
+    /// `most`. Returns how many have been looked at.
+    pub(super) fn find<P: PointStore>(
+        &mut self,
+        points: &P,
+        mesh: &TetMesh,
+        [a, b]: [VertexId; 2],
+        seeds: &[TetId],
+        range: Span,
+        most: usize,
+    ) -> Option<usize> {
+        let line = [points.rounded(a), points.rounded(b)];
+        self.begin(mesh);
+        let mut looked = 0;
+        let mut visit = |reaches: &mut Reaches, t: TetId| {
+            if reaches.marks[t.index()].0 == reaches.stamp {
+                return;
+            }
+            looked += 1;
+            let span = span(points, mesh, t, line);
+            let overlaps = span[0].max(range[0]) <= span[1].min(range[1]);
+            let place = if overlaps {
+                reaches.tets.len() as u32
+            } else {
+                NOWHERE
+            };
+            reaches.marks[t.index()] = (reaches.stamp, place);
+            if overlaps {
+                reaches.tets.push(t);
+                reaches.spans.push(span);
+            }
+        };
+        seeds.iter().for_each(|&t| visit(self, t));
+        let mut next = 0;
+        while let Some(&t) = self.tets.get(next) {
+            if self.tets.len() > most {
+                return None;
+            }
+            next += 1;
+            for slot in 0..4 {
+                visit(self, mesh.neighbor(t.corner(slot)));
+            }
+        }
+        Some(looked)
+    }
+
+    fn begin(&mut self, mesh: &TetMesh) {
+        if self.stamp == u32::MAX {
+            self.marks.fill((0, 0));
+            self.stamp = 0;
+        }
+        self.stamp += 1;
+        let length = mesh.capacity().max(self.marks.len());
+        self.marks.resize(length, (0, 0));
+        self.tets.clear();
+        self.spans.clear();
+    }
+
+    fn place(&self, t: TetId) -> Option<usize> {
+        let (stamp, place) = self.marks[t.index()];
+        (stamp == self.stamp && place != NOWHERE).then_some(place as usize)
+    }
+
+    /// Where new vertices are joined to the end v of ab: from v on as far as the returned interval goes, because a sphere
+    /// through v that is empty shrinks towards v. `seeds` are tetrahedra that ab crosses; if none of them is at v, or too
+    /// many are, everywhere.
+    pub(super) fn joined<P: PointStore>(
+        &mut self,
+        points: &P,
+        mesh: &TetMesh,
+        [a, b]: [VertexId; 2],
+        v: VertexId,
+        seeds: &[TetId],
+        most: usize,
+    ) -> Span {
+        let line = [points.rounded(a), points.rounded(b)];
+        self.begin(mesh);
+        let at_v = |t: &TetId| mesh.slot_of(*t, v).is_some();
+        self.tets.extend(seeds.iter().copied().find(at_v));
+        let mut common = EMPTY;
+        let mut next = 0;
+        while let Some(&t) = self.tets.get(next).filter(|_| next <= most) {
+            next += 1;
+            let span = span(points, mesh, t, line);
+            if span[0].max(0.0) >= span[1].min(1.0) {
+                continue;
+            }
+            common = [common[0].min(span[0]), common[1].max(span[1])];
+            for slot in 0..4 {
+                let n = mesh.neighbor(t.corner(slot));
+                if self.marks[n.index()].0 != self.stamp && at_v(&n) {
+                    self.marks[n.index()] = (self.stamp, NOWHERE);
+                    self.tets.push(n);
+                }
+            }
+        }
+        if next == 0 || next > most {
+            return [0.0, 1.0];
+        }
+        common
+    }
+
+    /// Calls `visit` with each edge that some new vertices make vanish, and with where these are.
+    pub(super) fn vanishing(
+        &self,
+        mesh: &TetMesh,
+        range: Span,
+        visit: impl FnMut([VertexId; 2], Span),
+    ) {
+        let narrow = |s: Span, t: TetId| {
+            let [low, high] = self.place(t).map_or(EMPTY, |i| self.spans[i]);
+            let common = [s[0].max(low), s[1].min(high)];
+            (common[0] <= common[1]).then_some(common)
+        };
+        let is_in = |t| self.place(t).is_some();
+        inner_edges(mesh, &self.tets, is_in, range, narrow, visit);
+    }
+}
+
+/// For which u the point A + u(B − A) is in conflict with t.
+fn span<P: PointStore>(points: &P, mesh: &TetMesh, t: TetId, line: [[f64; 3]; 2]) -> Span {
+    let Some(slot) = mesh.slot_of(t, VertexId::INFINITE) else {
+        return within_sphere(mesh.vertices(t).map(|v| points.rounded(v)), line);
+    };
+    // A ghost: segments are never beyond a hull facet, but may be in its plane.
+    let c = t.corner(slot);
+    let [p, q, r] = mesh.facet(c).map(|v| points.rounded(v));
+    let normal = cross(sub(q, p), sub(r, p));
+    let is_near = |x: [f64; 3]| {
+        let x = sub(x, p);
+        let height = dot(x, normal);
+        height * height <= FLAT * FLAT * dot(x, x) * dot(normal, normal)
+    };
+    if line.into_iter().all(is_near) {
+        let corners = mesh.vertices(mesh.neighbor(c));
+        within_sphere(corners.map(|v| points.rounded(v)), line)
+    } else {
+        EMPTY
+    }
+}
+
+/// For which u the point A + u(B − A) is in the circumsphere of a positive tetrahedron.
+///
+/// With the first corner as the origin and edges e, f, g, whose determinant is D, a point x is inside iff
+/// D |x|² − x·(|e|² f×g + |f|² g×e + |g|² e×f) < 0.
+fn within_sphere([o, p, q, r]: [[f64; 3]; 4], [a, b]: [[f64; 3]; 2]) -> Span {
+    let [e, f, g] = [p, q, r].map(|p| sub(p, o));
+    let (fg, ge, ef) = (cross(f, g), cross(g, e), cross(e, f));
+    let volume = dot(e, fg);
+    let (ee, ff, gg) = (dot(e, e), dot(f, f), dot(g, g));
+    let gradient = [0, 1, 2].map(|i| ee * fg[i] + ff * ge[i] + gg * ef[i]);
+    let (x, d) = (sub(a, o), sub(b, a));
+    let square = volume * dot(d, d);
+    let linear = 2.0 * volume * dot(x, d) - dot(d, gradient);
+    let constant = volume * dot(x, x) - dot(x, gradient);
+    negative(square, linear, constant)
+}
+
+/// Where s u² + l u + c < 0 for s ≥ 0; for s < 0, by rounding, it is taken for linear.
+fn negative(s: f64, l: f64, c: f64) -> Span {
+    if s <= 0.0 {
+        return if l > 0.0 {
+            [f64::NEG_INFINITY, -c / l]
+        } else if l < 0.0 {
+            [-c / l, f64::INFINITY]
+        } else {
+            EMPTY
+        };
+    }
+    let discriminant = l * l - 4.0 * s * c;
+    if discriminant <= 0.0 {
+        return EMPTY;
+    }
+    let sum = -0.5 * (l + discriminant.sqrt().copysign(l));
+    let (x, y) = (sum / s, c / sum);
+    [x.min(y), x.max(y)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::delaunay;
+    use crate::predicate::DoublePoints;
+
+    /// The tetrahedra whose intervals contain u are the conflict zone of the point there.
+    #[test]
+    fn intervals_tell_conflict_zones() {
+        let coordinate = |i: u32, k: u32| f64::from((i * 7919 + k * 104_729 + i * i * k) % 97);
+        let vertices: Vec<[f64; 3]> = (0..80)
+            .map(|i| [1, 2, 3].map(|k| coordinate(i, k)))
+            .collect();
+        let mut points = DoublePoints::new(vertices);
+        let all: Vec<VertexId> = (0..80).map(VertexId::new).collect();
+        let mut delaunay = delaunay(&points, &all).expect("these points span space");
+        let mut reaches = Reaches::default();
+        let mut looked = 0;
+        for [a, b] in [[0, 1], [2, 3], [10, 20], [5, 60]].map(|e| e.map(VertexId::new)) {
+            let [p, q] = [a, b].map(|v| points.rounded(v));
+            let start = delaunay
+                .mesh
+                .finite()
+                .find(|&t| delaunay.mesh.has_vertices(t, &[a]));
+            let start = start.expect("a is in the mesh");
+            let all = [-0.5, 1.5];
+            looked += reaches
+                .find(&points, &delaunay.mesh, [a, b], &[start], all, 10_000)
+                .expect("there are not so many tetrahedra");
+            for u in [0.1, 0.25, 0.4, 0.5, 0.7, 0.9] {
+                let v = points.push([0, 1, 2].map(|i| p[i] + u * (q[i] - p[i])));
+                let start = delaunay.locate(&points, v);
+                delaunay.find_conflicts(&points, v, start);
+                let mut zone = delaunay.conflicts().to_vec();
+                zone.sort_unstable();
+                let tets = reaches.tets.iter().zip(&reaches.spans);
+                let mut told: Vec<TetId> = tets
+                    .filter(|(_, s)| s[0] < u && u < s[1])
+                    .map(|(&t, _)| t)
+                    .collect();
+                told.sort_unstable();
+                assert_eq!(zone, told);
+                points.truncate(80);
+            }
+        }
+        assert!(looked > 100);
+    }
+}
