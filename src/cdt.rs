@@ -4,6 +4,7 @@
 //! Plc ─ Complex::new ─ delaunay ─ recover_segments ─ insert_polygons ─ mark_domain ─ ExportedMesh
 //! ```
 
+use crate::clock::TaskSeconds;
 use crate::delaunay::delaunay;
 use crate::error::{DeletionRefused, Failure, GaveUp};
 use crate::mesh::{
@@ -243,6 +244,16 @@ impl Cdt<DoublePoints> {
             report.insertion_counts = counts;
             result.map(|()| counts)
         })
+    }
+
+    /// From now on, the tasks of polygon insertion are timed ([`Cdt::task_seconds`]), which slows flips down a little.
+    pub fn time_tasks(&mut self) {
+        self.scratch.time_tasks();
+    }
+
+    /// The seconds of the tasks since [`Cdt::time_tasks`]; zeros if it was not called.
+    pub fn task_seconds(&self) -> TaskSeconds {
+        self.scratch.task_seconds()
     }
 
     /// Deletes polygon `f`, an index in [`Complex::polygons`], from the mesh, which becomes what it would be if `f` had

@@ -29,6 +29,7 @@
 
 pub mod cdt;
 pub mod check;
+pub mod clock;
 pub mod delaunay;
 pub mod error;
 pub mod format;

@@ -69,11 +69,12 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order in which they are run.
-pub const ALL: [Experiment; 11] = [
+pub const ALL: [Experiment; 12] = [
     crate::models::EXPERIMENT,
     crate::fig8::EXPERIMENT,
     crate::fig9::EXPERIMENT,
     crate::table1::EXPERIMENT,
+    crate::table2::EXPERIMENT,
     crate::growth::EXPERIMENT,
     crate::exactness_cost::EXPERIMENT,
     crate::flip_order::EXPERIMENT,

@@ -1,5 +1,8 @@
 //! The experiments: what each asks is in its module, what they have in common beside them ([`experiment`] is the frame).
 
+// The texts of experiments name their parts.
+#![allow(rustdoc::private_intra_doc_links)]
+
 pub mod exactness_cost;
 pub mod expectation;
 pub mod experiment;
@@ -27,4 +30,5 @@ pub mod schoenhardt;
 pub mod steiner;
 pub mod suite;
 pub mod table1;
+pub mod table2;
 pub mod turns;

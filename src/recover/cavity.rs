@@ -27,6 +27,7 @@ use super::region::Region;
 use super::scratch::Table;
 use super::side::{Side, Sides};
 use super::walls::{Filled, Wall, Walls};
+use crate::clock::{Task, TaskClock};
 use crate::delaunay::{Delaunay, delaunay};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
@@ -112,6 +113,8 @@ pub struct CavityScratch {
     swallowed_by: Table<Option<Side>>,
     /// The vertices of D, each with a tetrahedron of D once D has been indexed.
     tet_at: Table<Option<TetId>>,
+    /// Which task takes how long, if somebody asks.
+    pub(super) clock: TaskClock,
 }
 
 /// Retriangulates the region R of f. `is_subpolygon` tells the triangles of polygons that are in the mesh.
@@ -126,6 +129,7 @@ pub fn retriangulate<P: PointStore>(
     scratch: &mut CavityScratch,
 ) -> Result<Retriangulation, Refused> {
     scratch.swallowed_by.clear();
+    scratch.clock.begin();
     let place = Place {
         mesh,
         sides,
@@ -136,7 +140,9 @@ pub fn retriangulate<P: PointStore>(
     let mut right = Cavity::new(place, Side::Right, &below?, &[], scratch)?;
     let border = right.open_edges();
     right.expand()?;
+    right.scratch.clock.end(Task::CavityFaces);
     let (faces, corners) = right.faces_on_hull(&border)?;
+    right.scratch.clock.end(Task::PolygonFaces);
     for (&facet, &corner) in faces.iter().zip(&corners) {
         right.walls.add(Wall::of_polygon(facet, corner));
     }
@@ -144,11 +150,13 @@ pub fn retriangulate<P: PointStore>(
         .walls
         .inside(&right.d.mesh)
         .ok_or(Refused::NotExposed)?;
+    right.scratch.clock.end(Task::Merging);
     let mut swallowed = right.swallowed;
 
     let turned: Vec<[VertexId; 3]> = faces.iter().map(|&[a, b, c]| [b, a, c]).collect();
     let mut left = Cavity::new(place, Side::Left, &above?, &turned, scratch)?;
     left.expand()?;
+    left.scratch.clock.end(Task::CavityFaces);
     if !left.has_polygon() {
         return Err(Refused::Incompatible);
     }
@@ -161,6 +169,7 @@ pub fn retriangulate<P: PointStore>(
     let is_old = |t: TetId| region.contains(t) || scratch.swallowed_by.get(t.index()).is_some();
     let (new, across) = Filled::join(below, above, &is_old).ok_or(Refused::NotExposed)?;
     let displaced = vanishing(place, &old, &new, &is_old, is_subpolygon);
+    scratch.clock.end(Task::Merging);
     Ok(Retriangulation {
         old,
         new,
@@ -278,7 +287,9 @@ impl<'a, P: PointStore> Cavity<'a, P> {
             }
         }
         vertices.sort_unstable();
+        scratch.clock.end(Task::CavityFaces);
         let d = delaunay(place.sides.points(), &vertices).map_err(|_| Refused::NotExposed)?;
+        scratch.clock.end(Task::CavityDelaunay);
         let boundary = boundary.iter().map(|&(facet, c)| Wall::new(facet, c));
         let f = f.iter().map(|&facet| Wall::of_polygon(facet, Corner::NONE));
         let mut walls = Walls::new(boundary.chain(f));

@@ -10,6 +10,7 @@ use super::method::Insertion;
 use super::polygons::{PolygonInsertion, count_shims};
 use super::region::Region;
 use super::side::Sides;
+use crate::clock::Task;
 use crate::predicate::PointStore;
 
 /// The largest region that is gift wrapped because cavity retriangulation was refused: seconds, not minutes.
@@ -73,8 +74,10 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
 
     /// Puts a retriangulation into the mesh.
     fn graft(&mut self, f: usize, sides: &Sides<P>, r: &Retriangulation) -> Vec<usize> {
+        self.scratch.cavity.clock.begin();
         let created = r.graft(self.mesh);
         self.incidence.update(self.mesh, &created);
+        self.scratch.cavity.clock.end(Task::Merging);
         self.counts.swallowed += r.swallowed as u64;
         self.counts.displaced += r.displaced.len() as u64;
         self.counts.shims += count_shims(self.mesh, sides, &created);

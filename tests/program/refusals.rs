@@ -258,13 +258,24 @@ fn bad_usage_ends_with_2() {
     );
 }
 
-/// Ten points on a sphere and a square through it, on which rounded flip times fail.
-pub const SPHERE: &str = "10 3\n0 8 -2 0\n1 -4 4 -6\n2 80 80 -1\n3 -80 80 -1\n4 -2 -8 0\n5 -4 -6 4\n6 -80 -80 -1\n7 -2 8 0\n\
-    8 80 -80 -1\n9 2 8 0\n1 0\n1\n4 6 8 2 3\n0\n0\n";
+/// A prism with its corners on a sphere, and a seventh vertex, on which flips with times in `f64` get stuck.
+pub const PRISM: &str = "7 3 0 0\n\
+    0 1.3078065480124408 1.3779478464061732 -0.5394744828808755\n\
+    1 1.8112690899167683 1.0202704609080397 -1.6376913668019157\n\
+    2 0.4649072456801425 -0.3282048520190928 -1.8157287244026517\n\
+    3 1.6542434170044296 1.053176664204991 -0.6994603458649746\n\
+    4 0.3078815727678037 -0.2952986487221416 -0.8774977034657107\n\
+    5 -0.038555296224185076 0.029472533479040663 -0.7175118404816117\n\
+    6 0.3143400366393333 -0.30606522139760983 -1.2501464545143133\n\
+    1 1\n\
+    1 0 0\n\
+    3 4 2 5\n\
+    0\n\
+    0\n";
 
 #[test]
 fn failed_flips_leave_their_region_to_try_again() {
-    let place = Place::with(&[("a.poly", SPHERE)]);
+    let place = Place::with(&[("a.poly", PRISM)]);
     let run = place
         .run("mesh a.poly --hull --times f64 -o x.node")
         .ends_with(1);

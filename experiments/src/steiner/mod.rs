@@ -16,6 +16,7 @@ pub mod rival;
 mod row;
 
 use crate::experiment::{Answer, Context, Experiment};
+use crate::suite;
 use families::Model;
 use rival::{Rival, SWITCHES};
 use row::Row;
@@ -25,6 +26,9 @@ use tetflip::format::read_plc;
 
 /// The column `source` of the built-in families.
 const BUILT_IN: &str = "built-in";
+
+/// The column `source` of the generated models, those of `table1`.
+const GENERATED: &str = "generated";
 
 /// The question and its cost.
 pub const EXPERIMENT: Experiment = Experiment {
@@ -41,7 +45,10 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
         switches: SWITCHES.to_string(),
     });
     let rivals: Vec<Rival> = tetgen.chain(context.rivals.iter().cloned()).collect();
-    let mut sources = vec![(BUILT_IN, families::models(context.quick))];
+    let mut sources = vec![
+        (BUILT_IN, families::models(context.quick)),
+        (GENERATED, generated(context.quick)?),
+    ];
     if let Some(directory) = &context.models {
         sources.push(("models", read_models(directory)?));
     }
@@ -69,6 +76,16 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
         ],
         expectations: expect::expectations(&rows),
     })
+}
+
+fn generated(quick: bool) -> Result<Vec<Model>, Box<dyn Error>> {
+    let models = suite::built_in(quick).into_iter().map(|model| {
+        Ok(Model {
+            plc: model.plc()?,
+            name: model.name,
+        })
+    });
+    models.collect()
 }
 
 /// The models of a directory, in order of name; files that are no PLC are left out.

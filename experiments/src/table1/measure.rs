@@ -8,6 +8,7 @@ use tetflip::cdt::{Cdt, Options};
 use tetflip::error::Failure;
 use tetflip::mesh::ExportedMesh;
 use tetflip::plc::Plc;
+use tetflip::predicate::Steiner;
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
 use tetflip::verify::{VerifyOptions, verify};
@@ -38,20 +39,27 @@ pub fn measure(model: &Model, rounds: usize) -> Row {
     };
     row.vertices = plc.vertices.len();
     row.facets = Some(plc.facets.len());
-    match all_rounds(&plc, rounds, &mut row) {
+    // As the program does: rounded Steiner points, and exact ones where these have no solution.
+    row.steiner = "rounded";
+    let mut result = all_rounds(&plc, rounds, Steiner::Rounded, &mut row);
+    if let Err(Failure::GaveUp(_)) = result {
+        row.steiner = "exact";
+        result = all_rounds(&plc, rounds, Steiner::Exact, &mut row);
+    }
+    match result {
         Ok(()) => row.outcome = outcome::OK,
         Err(failure) => row.outcome = outcome::word::<()>(&Err(failure)),
     }
     row
 }
 
-fn all_rounds(plc: &Plc, rounds: usize, row: &mut Row) -> Result<(), Failure> {
+fn all_rounds(plc: &Plc, rounds: usize, steiner: Steiner, row: &mut Row) -> Result<(), Failure> {
     let flips = Insertion::Flip(Times::Filtered);
     let mut cavity_runs = Vec::new();
     let mut flip_runs = Vec::new();
     for _ in 0..rounds {
-        cavity_runs.push(make(plc, Insertion::Cavity)?);
-        flip_runs.push(make(plc, flips)?);
+        cavity_runs.push(make(plc, Insertion::Cavity, steiner)?);
+        flip_runs.push(make(plc, flips, steiner)?);
     }
     let (by_cavity, by_flips) = (&cavity_runs[0], &flip_runs[0]);
     let report = &by_flips.report;
@@ -86,7 +94,7 @@ fn all_rounds(plc: &Plc, rounds: usize, row: &mut Row) -> Result<(), Failure> {
     });
     let mut agrees = by_cavity.mesh == by_flips.mesh;
     if counts.largest_region <= MOST_WRAPPED {
-        let wrapped = make(plc, Insertion::GiftWrap)?;
+        let wrapped = make(plc, Insertion::GiftWrap, steiner)?;
         row.gift_wrap_seconds = Some(rounded(wrapped.report.seconds.polygons));
         agrees &= wrapped.mesh == by_flips.mesh;
     }
@@ -96,10 +104,11 @@ fn all_rounds(plc: &Plc, rounds: usize, row: &mut Row) -> Result<(), Failure> {
     Ok(())
 }
 
-fn make(plc: &Plc, insertion: Insertion) -> Result<Made, Failure> {
+fn make(plc: &Plc, insertion: Insertion, steiner: Steiner) -> Result<Made, Failure> {
     let mut report = Report::default();
     let options = Options {
         insertion,
+        steiner,
         ..Options::default()
     };
     let mut cdt = Cdt::begin(plc, &options, &mut report)?;

@@ -1,8 +1,8 @@
 //! Table 1: statistics of the construction of CDTs.
 //!
 //! **Question.** How many Steiner points, recovered subpolygons, flips and crossing tetrahedra are there in models as people
-//! make them, and what does each phase cost? The paper finds polygon insertion to take less than a hundredth of the time, by
-//! either algorithm.
+//! make them, and what does each phase cost? In the paper, polygons take 4 to 16 per cent of the time, and the two algorithms
+//! differ by less than one per cent of it.
 //!
 //! **Inputs.** Generated models of the kinds and sizes of the paper's columns, and others ([`crate::suite`]); with `--models
 //! DIR` every file of a directory that has facets.

@@ -13,6 +13,7 @@ pub struct Row {
     pub vertices: usize,
     pub facets: Option<usize>,
     pub polygons: usize,
+    pub steiner: &'static str,
     pub steiner_points: usize,
     pub tetrahedra: usize,
     pub subpolygons: usize,

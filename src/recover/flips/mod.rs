@@ -32,6 +32,7 @@ pub use wide::WideTimes;
 use super::region::Region;
 use super::scratch::Table;
 use super::side::{Side, Sides};
+use crate::clock::{Task, TaskClock};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::number::Sign;
 use crate::predicate::PointStore;
@@ -159,6 +160,7 @@ pub struct FlipInsertion<'a, P, C: FlipTimes> {
     /// In an inexact order nothing proves that the flips come to an end: all are refused after this many.
     most_flips: u64,
     watch: Option<&'a mut dyn Watch>,
+    clock: Option<&'a mut TaskClock>,
 }
 
 impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
@@ -188,6 +190,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 most_flips(region.tets.len())
             },
             watch: None,
+            clock: None,
         }
     }
 
@@ -195,6 +198,20 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     pub fn watched_by(mut self, watch: Option<&'a mut dyn Watch>) -> Self {
         self.watch = watch;
         self
+    }
+
+    /// The same, with a clock of its tasks.
+    pub fn timed_by(mut self, clock: &'a mut TaskClock) -> Self {
+        clock.begin();
+        self.clock = Some(clock);
+        self
+    }
+
+    #[inline]
+    fn end(&mut self, task: Task) {
+        if let Some(clock) = &mut self.clock {
+            clock.end(task);
+        }
     }
 
     #[inline]
@@ -216,6 +233,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 self.certify(s, &lift, &mut Edges::new());
             }
         }
+        self.end(Task::Queueing);
         let mut outcome = FlipOutcome::Done;
         while let Some(event) = self.queue.pop(&mut self.times) {
             let Some(s) = event.corner_if_alive(self.mesh) else {
@@ -226,7 +244,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
             match self.flip(s, event.signs) {
                 Ok((kind, created)) => {
                     self.tell(event.circuit, Fate::Flipped(kind));
+                    self.end(Task::Flipping);
                     self.certify_around(&created);
+                    self.end(Task::Queueing);
                     if !C::EXACT {
                         self.patch_after_flip(&created);
                     }

@@ -4,6 +4,7 @@ use super::{
     Deleted, ExactTimes, FilteredTimes, FlipCounts, FlipDeletion, FlipInsertion, FlipOutcome,
     FlipTimes, Kept, Motion, RoundedTimes, VertexNumbers, Watch, WideTimes,
 };
+use crate::clock::TaskClock;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::number::{Dyadic, Wide, WidthTask};
 use crate::predicate::{NaivePoints, PointStore};
@@ -29,6 +30,8 @@ pub struct Flipped {
 pub struct FlipScratch {
     marks: Table<bool>,
     numbers: VertexNumbers,
+    /// Which task takes how long, if somebody asks.
+    pub(in crate::recover) clock: TaskClock,
 }
 
 /// Inserts one region of a polygon by flips, ordered by times in the number type `times`.
@@ -166,9 +169,10 @@ impl<P: PointStore> Job<'_, P> {
     }
 
     fn run<C: FlipTimes>(self, times: C) -> Flipped {
-        let marks = &mut self.scratch.marks;
+        let FlipScratch { marks, clock, .. } = self.scratch;
         let insertion = FlipInsertion::new(self.mesh, self.sides, self.region, times, marks);
-        let (outcome, tets, counts) = insertion.watched_by(self.watch).insert(self.region);
+        let insertion = insertion.watched_by(self.watch).timed_by(clock);
+        let (outcome, tets, counts) = insertion.insert(self.region);
         Flipped {
             outcome,
             tets,
