@@ -41,7 +41,7 @@ impl Plan {
         Plan {
             inputs: inputs(&slab, &lattice, &sphere),
             effort: Effort {
-                seconds: 0.6,
+                seconds: 0.35,
                 least: 5,
                 most: 301,
                 of_slow: 3,

@@ -31,7 +31,7 @@ impl Plan {
         Plan {
             scenes: scenes(small.chain(paper).chain(large)),
             effort: Effort {
-                seconds: 0.6,
+                seconds: 0.35,
                 least: 3,
                 most: 501,
                 of_slow: 0,

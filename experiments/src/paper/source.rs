@@ -123,6 +123,16 @@ impl Sheet {
         })
     }
 
+    /// The rows that have something in a column.
+    ///
+    /// # Errors
+    /// If there is no such column.
+    pub fn filled(mut self, name: &str) -> Result<Sheet, PaperError> {
+        let column = self.column(name)?;
+        self.rows.retain(|row| !row[column].is_empty());
+        Ok(self)
+    }
+
     /// All rows.
     pub fn all(&self) -> impl Iterator<Item = Row<'_>> {
         (0..self.rows.len()).map(|index| Row { sheet: self, index })
