@@ -97,19 +97,31 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         bar.set_position(done as u64)
     });
     let mut notes = Vec::new();
-    if arguments.steiner == SteinerArgument::Auto
-        && let Err(failure) = &result
-        && failure.is_due_to_rounding()
-    {
-        let why = failure.describe(&plc);
-        notes.push(format!(
-            "with rounded Steiner points: {why}; made with exact ones"
-        ));
-        options.steiner = Steiner::Exact;
-        report = Report::default();
-        result = tetrahedralize(&plc, &options, &mut report, &mut |done| {
+    let why = match &result {
+        _ if arguments.steiner != SteinerArgument::Auto => None,
+        Err(failure) if failure.is_due_to_rounding() => Some(failure.describe(&plc)),
+        // Whether such polygons can be inserted may depend on the algorithm; what this program makes should not.
+        Ok(_) if report.flattening.left_whole > 0 => Some(format!(
+            "{} polygons would need too many points to be cut into flat pieces",
+            report.flattening.left_whole
+        )),
+        _ => None,
+    };
+    if let Some(why) = why {
+        let exact = Options {
+            steiner: Steiner::Exact,
+            ..options
+        };
+        let mut exact_report = Report::default();
+        let again = tetrahedralize(&plc, &exact, &mut exact_report, &mut |done| {
             bar.set_position(done as u64)
         });
+        if again.is_ok() || result.is_err() {
+            notes.push(format!(
+                "with rounded Steiner points: {why}; made with exact ones"
+            ));
+            (options, report, result) = (exact, exact_report, again);
+        }
     }
     bar.finish_and_clear();
     if report.hull_instead {

@@ -13,8 +13,9 @@
 //! The boundary makes the sum of *signed* areas equal to that of the group, so that the second condition holds iff no
 //! face of S is turned over: S is projected one to one onto the group. In a flat facet without rounded points all
 //! candidates together are the only choice. Nearly flat vertices permit thin tetrahedra between candidates ("shims": all four
-//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh, all candidates, a part
-//! of them that is searched for ([`super::cover`]). The first that leaves no candidate that is not locally Delaunay is taken,
+//! faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh; a part of the
+//! candidates that is searched for ([`super::cover`]), with the listed faces inside the mesh; all candidates; a part with those
+//! that are not locally Delaunay. The first that leaves no candidate that is not locally Delaunay is taken,
 //! else the first that covers the group.
 //!
 //! A part of a facet (a cell of [`Area`]) is outside the domain, and exempt, if no candidate lies in it and a step from
@@ -226,11 +227,18 @@ impl<'a> Group<'a> {
         }
         self.exempt(&filled, cover, findings);
         let expected = self.expected();
-        let listed = candidates.iter().copied().filter(|&f| listed[f]);
-        let choices: [&dyn Fn() -> Vec<usize>; 3] = [
-            &|| listed.clone().collect(),
+        let given = candidates.iter().copied().filter(|&f| listed[f]);
+        let needed = |f: usize| !is_locally_delaunay(self.case, f);
+        // Where the mesh is convex, the faces of its hull are listed, too, whether on a facet or not.
+        let given_inside = |f: usize| listed[f] && self.case.tables.faces[f].tets == 2;
+        let choices: [&dyn Fn() -> Vec<usize>; 4] = [
+            &|| given.clone().collect(),
+            &|| match candidates.iter().any(|&f| given_inside(f)) {
+                true => self.chosen(&candidates, &expected, &given_inside),
+                false => Vec::new(),
+            },
             &|| candidates.clone(),
-            &|| self.chosen(&candidates, &expected),
+            &|| self.chosen(&candidates, &expected, &needed),
         ];
         let (mut covering, mut first_misfit) = (None, None);
         for (i, choice) in choices.into_iter().enumerate() {
@@ -249,7 +257,7 @@ impl<'a> Group<'a> {
                     }
                 }
                 // Of the failures, that of all candidates says most.
-                Some(misfit) if i == 1 => first_misfit = Some(misfit),
+                Some(misfit) if i == 2 => first_misfit = Some(misfit),
                 Some(_) => {}
             }
         }
@@ -412,9 +420,13 @@ impl<'a> Group<'a> {
         }
     }
 
-    /// A part of the candidates that covers the group, if one is found: with those that need to be on a facet, because
-    /// they are not locally Delaunay, if possible.
-    fn chosen(&self, candidates: &[usize], expected: &[([VertexId; 2], usize)]) -> Vec<usize> {
+    /// A part of the candidates that covers the group, if one is found: with those that are wanted, if possible.
+    fn chosen(
+        &self,
+        candidates: &[usize],
+        expected: &[([VertexId; 2], usize)],
+        is_wanted: &dyn Fn(usize) -> bool,
+    ) -> Vec<usize> {
         let tables = &self.case.tables;
         // A face that stands upright is a side of a shim; it covers nothing.
         let lies = |&f: &usize| {
@@ -426,10 +438,7 @@ impl<'a> Group<'a> {
         };
         let lying: Vec<usize> = candidates.iter().copied().filter(lies).collect();
         let keys: Vec<[VertexId; 3]> = lying.iter().map(|&f| tables.faces[f].key).collect();
-        let wanted: Vec<bool> = lying
-            .iter()
-            .map(|&f| !is_locally_delaunay(self.case, f))
-            .collect();
+        let wanted: Vec<bool> = lying.iter().map(|&f| is_wanted(f)).collect();
         let need = expected.iter().map(|&(edge, faces)| match faces {
             1 => (edge, Need::One),
             _ => (edge, Need::TwoOrNone),

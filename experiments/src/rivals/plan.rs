@@ -194,9 +194,11 @@ impl Input {
     pub fn is_for(&self, contestant: &Contestant, vertices: usize) -> bool {
         let points = matches!(self.kind, Kind::Points { .. });
         match contestant {
-            Contestant::Ours(Ours::Delaunay) | Contestant::Hxt { threads: 1, .. } => points,
-            // What two threads gain shows on the largest input.
-            Contestant::Hxt { .. } => points && vertices >= MILLION,
+            Contestant::Ours(Ours::Delaunay) => points,
+            // Most of its time goes into numbers for Python and back, and what two threads gain shows on the largest input.
+            Contestant::Hxt { threads, .. } => {
+                self.name.starts_with("uniform/") && (*threads == 1 || vertices >= MILLION)
+            }
             Contestant::Ours(Ours::Cavity | Ours::Flips) => !points,
             Contestant::Ours(Ours::Verifier) => vertices < MILLION,
             Contestant::TetGen { .. } => true,

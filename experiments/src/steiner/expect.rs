@@ -5,7 +5,7 @@ use crate::steiner::measure::TETFLIP;
 use crate::steiner::row::Row;
 
 /// Steiner points for each segment of a built-in model, at most. Recovery that is about to run away has more.
-const MOST_PER_SEGMENT: usize = 150;
+const MOST_PER_SEGMENT: usize = 200;
 
 /// All expectations.
 pub fn expectations(rows: &[Row]) -> Vec<Expectation> {

@@ -107,6 +107,9 @@ struct State<'a> {
     /// The pieces of polygons that are not flat.
     cuts: Vec<Option<Cut>>,
     inner: Vec<Vec<VertexId>>,
+    /// All vertices of each polygon when it was last looked at. A Steiner point on its boundary touches those beside it, so
+    /// that a polygon with none that is touched is as it was.
+    vertices: Vec<Vec<VertexId>>,
 }
 
 /// Cuts all polygons that are not flat, inserting Steiner points where that is impossible. If it would take too many of
@@ -126,6 +129,7 @@ pub fn flatten<P: PointStore>(
         index,
         cuts: vec![None; n],
         inner: vec![Vec::new(); n],
+        vertices: vec![Vec::new(); n],
     };
     let mut requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), None);
     if requests.is_empty() && !state.has_bad() {
@@ -179,18 +183,19 @@ impl State<'_> {
     ) -> Vec<(usize, Request)> {
         let mut requests = Vec::new();
         for (f, polygon) in self.complex.polygons.iter().enumerate() {
-            let boundary = boundary_subsegments(subsegments, self.index, polygon);
-            let vertices = vertices(polygon, &boundary, &self.inner[f]);
-            let is_touched = |t: &FxHashSet<VertexId>| vertices.iter().any(|v| t.contains(v));
+            let is_touched =
+                |t: &FxHashSet<VertexId>| self.vertices[f].iter().any(|v| t.contains(v));
             let is_bad = self.cuts[f].as_ref().is_some_and(|cut| !cut.bad.is_empty());
             if !is_bad && !touched.is_none_or(is_touched) {
                 continue;
             }
+            let boundary = boundary_subsegments(subsegments, self.index, polygon);
+            self.vertices[f] = vertices(polygon, &boundary, &self.inner[f]);
             self.cuts[f] = None;
-            if is_flat(points, polygon, &vertices) {
+            if is_flat(points, polygon, &self.vertices[f]) {
                 continue;
             }
-            let of_f = (&boundary[..], &vertices[..]);
+            let of_f = (&boundary[..], &self.vertices[f][..]);
             let constraints = (subsegments, self.index);
             let cut = cut::cut(points, mesh, incidence, constraints, polygon, of_f);
             let wanted = wanted(points, polygon, &cut, &boundary);
