@@ -168,7 +168,8 @@ fn ratios(builder: &mut Builder, summary: &Sheet) -> Result<(), PaperError> {
         paper,
         "fig9-summary.csv: crossing_from=1000, flip f64; ratio_to_cavity",
     );
-    let slow = numbers(&filtered, "ratio_to_f64")?;
+    // In the smallest class insertions take some tens of microseconds, whatever the times.
+    let slow = numbers(&filtered[1..], "ratio_to_f64")?;
     let slow = slow.iter().filter(|&&r| r > 1.2);
     let slow = slow
         .map(|r| format!("fig9-summary.csv: filtered/f64 {r}"))
