@@ -24,7 +24,7 @@ use std::error::Error;
 pub const EXPERIMENT: Experiment = Experiment {
     name: "failures",
     question: "the smallest failures of rounded flips, in pictures (paper, failure case of §3.4)",
-    seconds: 30,
+    seconds: 10,
     run,
 };
 
