@@ -1,9 +1,10 @@
 //! The frame of all experiments: what one is given, what it answers, and the list of them.
 
 use crate::expectation::Expectation;
-use crate::record::Results;
+use crate::record::{RecordError, Results};
 use crate::steiner::rival::Rival;
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
 use std::error::Error;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -29,6 +30,44 @@ pub struct Context {
 }
 
 impl Context {
+    /// Writes `STEM.csv`: the rows, each with the commit of the sources as its last column.
+    ///
+    /// # Errors
+    /// As [`Results::rows`].
+    pub fn record<T: Serialize>(&self, stem: &str, rows: &[T]) -> Result<PathBuf, RecordError> {
+        #[derive(Serialize)]
+        struct Stamp<'a> {
+            commit: &'a str,
+        }
+        let commit = &self.commit;
+        let stamped: Vec<_> = rows.iter().map(|row| (row, Stamp { commit })).collect();
+        self.results.rows(stem, &stamped)
+    }
+
+    /// The plan of this form.
+    pub fn plan<P>(&self, quick: fn() -> P, full: fn() -> P) -> P {
+        if self.quick { quick() } else { full() }
+    }
+
+    /// The rows of all inputs, one after the other, beside a progress bar: an input moves it by its weight.
+    pub fn measure<I, R>(
+        &self,
+        inputs: &[I],
+        weight: impl Fn(&I) -> u64,
+        name: impl Fn(&I) -> String,
+        measure: impl Fn(&I) -> Vec<R>,
+    ) -> Vec<R> {
+        let bar = self.bar(inputs.iter().map(&weight).sum());
+        let mut rows = Vec::new();
+        for input in inputs {
+            bar.set_message(name(input));
+            rows.extend(measure(input));
+            bar.inc(weight(input));
+        }
+        bar.finish_and_clear();
+        rows
+    }
+
     /// A progress bar on stderr, if that is a terminal, with the remaining time.
     pub fn bar(&self, length: u64) -> ProgressBar {
         let style = ProgressStyle::with_template(

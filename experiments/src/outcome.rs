@@ -39,6 +39,16 @@ pub fn left<T>(result: &Result<T, Failure>) -> usize {
     }
 }
 
+/// How many of the rows failed, and which, for people: of each row the name, the columns `outcome` and `left`.
+pub fn failures<R>(rows: &[R], of: impl Fn(&R) -> (String, &'static str, usize)) -> String {
+    let failed: Vec<_> = rows.iter().map(of).filter(|(_, o, _)| *o != OK).collect();
+    let mut text = format!("{} runs, {} of them failed\n", rows.len(), failed.len());
+    for (name, outcome, left) in failed {
+        text += &format!("  {name}: {outcome}, {left} left\n");
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -22,10 +22,11 @@ mod row;
 mod summary;
 
 use crate::experiment::{Answer, Context, Experiment};
+use crate::outcome;
+use input::Input;
 use plan::Plan;
 use row::Row;
 use std::error::Error;
-use std::fmt::Write;
 
 /// The question and its cost.
 pub const EXPERIMENT: Experiment = Experiment {
@@ -36,27 +37,22 @@ pub const EXPERIMENT: Experiment = Experiment {
 };
 
 fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
-    let plan = if context.quick {
-        Plan::quick()
-    } else {
-        Plan::full()
-    };
+    let plan = context.plan(Plan::quick, Plan::full);
     let rows = measure_all(&plan, context);
     let methods = plan::methods();
     let summaries = summary::summaries(&rows, &methods);
     let targets = summary::targets(&summaries);
-    let results = &context.results;
     Ok(Answer {
         text: format!(
             "Times relative to flips with f64 times:\n\n{}\n{}\n{}",
             summary::table(&summaries, &methods),
             summary::targets_text(&targets),
-            failures(&rows)
+            outcome::failures(&rows, |r| (r.name(), r.outcome, r.left))
         ),
         files: vec![
-            results.rows("exactness_cost", &rows)?,
-            results.rows("exactness_cost-summary", &summaries)?,
-            results.rows("exactness_cost-targets", &targets)?,
+            context.record("exactness_cost", &rows)?,
+            context.record("exactness_cost-summary", &summaries)?,
+            context.record("exactness_cost-targets", &targets)?,
         ],
         expectations: expect::expectations(&rows),
     })
@@ -64,27 +60,7 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
 
 /// All inputs.
 fn measure_all(plan: &Plan, context: &Context) -> Vec<Row> {
-    let bar = context.bar(plan.inputs.iter().map(plan::weight).sum());
-    let mut rows = Vec::new();
-    for input in &plan.inputs {
-        bar.set_message(input.name());
-        let measured = measure::measure(input, &plan::methods_for(input.about), &plan.effort);
-        rows.extend(measured.into_iter().map(|row| Row {
-            commit: context.commit.clone(),
-            ..row
-        }));
-        bar.inc(plan::weight(input));
-    }
-    bar.finish_and_clear();
-    rows
-}
-
-/// Which runs failed.
-fn failures(rows: &[Row]) -> String {
-    let failed: Vec<&Row> = rows.iter().filter(|r| !r.is_ok()).collect();
-    let mut text = format!("{} runs, {} of them failed\n", rows.len(), failed.len());
-    for row in failed {
-        let _ = writeln!(text, "  {}: {}, {} left", row.name(), row.outcome, row.left);
-    }
-    text
+    context.measure(&plan.inputs, plan::weight, Input::name, |input| {
+        measure::measure(input, &plan::methods_for(input.about), &plan.effort)
+    })
 }

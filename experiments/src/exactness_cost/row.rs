@@ -36,7 +36,6 @@ pub struct Row {
     pub repeatable: bool,
     pub agrees: Option<bool>,
     pub verified: Option<bool>,
-    pub commit: String,
 }
 
 /// What decided the comparisons of flip times: parts of their number.

@@ -41,12 +41,9 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
         });
         let (name, path) = picture.transpose()?.unzip();
         files.extend(path);
-        rows.push(Row {
-            commit: context.commit.clone(),
-            ..Row::new(case, i == 0, name.unwrap_or_default())
-        });
+        rows.push(Row::new(case, i == 0, name.unwrap_or_default()));
     }
-    files.push(results.rows("failures", &rows)?);
+    files.push(context.record("failures", &rows)?);
     Ok(Answer {
         text: row::table(&rows),
         files,

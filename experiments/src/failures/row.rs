@@ -21,7 +21,6 @@ pub struct Row {
     pub piece_vertices: usize,
     pub exact_succeeds: bool,
     pub picture: String,
-    pub commit: String,
 }
 
 impl Row {
@@ -45,7 +44,6 @@ impl Row {
             piece_vertices: piece.map_or(0, |p| p.vertices),
             exact_succeeds: case.exact_succeeds,
             picture,
-            commit: String::new(),
         }
     }
 

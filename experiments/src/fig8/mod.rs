@@ -47,7 +47,6 @@ pub struct Row {
     crossing_tets: u64,
     tetrahedra_after: usize,
     crossing_after: usize,
-    commit: String,
 }
 
 fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
@@ -75,11 +74,10 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
         crossing_tets: counts.crossing_tets,
         tetrahedra_after: after.len(),
         crossing_after: after.iter().filter(|t| crosses(t)).count(),
-        commit: context.commit.clone(),
     }];
     let results = &context.results;
     let files = vec![
-        results.rows("fig8", &rows)?,
+        context.record("fig8", &rows)?,
         results.text(
             "fig8.svg",
             &picture(&plc, &before, region.frame, &region.before, "before"),

@@ -21,10 +21,11 @@ mod summary;
 
 use crate::experiment::{Answer, Context, Experiment};
 use crate::method::Method;
+use crate::outcome;
+use crate::scene::Slab;
 use plan::Plan;
 use row::Row;
 use std::error::Error;
-use std::fmt::Write;
 
 /// The figure.
 pub const EXPERIMENT: Experiment = Experiment {
@@ -35,25 +36,21 @@ pub const EXPERIMENT: Experiment = Experiment {
 };
 
 fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
-    let plan = if context.quick {
-        Plan::quick()
-    } else {
-        Plan::full()
-    };
+    let plan = context.plan(Plan::quick, Plan::full);
     let methods = Method::all();
     let rows = measure_all(&plan, &methods, context);
     let summaries = summary::summaries(&rows, &methods);
 
     let results = &context.results;
     let mut files = vec![
-        results.rows("fig9", &rows)?,
-        results.rows("fig9-summary", &summaries)?,
+        context.record("fig9", &rows)?,
+        context.record("fig9-summary", &summaries)?,
     ];
     for figure in plots::FIGURES {
         files.push(results.text(figure.file, &figure.svg(&rows, &methods)?)?);
     }
     let table = summary::table(&summaries, &methods);
-    let failures = failures(&rows);
+    let failures = outcome::failures(&rows, |r| (r.name(), r.outcome, r.left));
     Ok(Answer {
         text: format!(
             "Median milliseconds of the insertion of the rectangle:\n\n{table}\n{failures}"
@@ -65,27 +62,8 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
 
 /// All scenes.
 fn measure_all(plan: &Plan, methods: &[Method], context: &Context) -> Vec<Row> {
-    let bar = context.bar(plan.scenes.iter().map(plan::weight).sum());
-    let mut rows = Vec::new();
-    for &slab in &plan.scenes {
-        bar.set_message(format!("{} vertices, seed {}", slab.vertices, slab.seed));
-        let scene = measure::scene(slab, methods, &plan.effort);
-        rows.extend(scene.into_iter().map(|row| Row {
-            commit: context.commit.clone(),
-            ..row
-        }));
-        bar.inc(plan::weight(&slab));
-    }
-    bar.finish_and_clear();
-    rows
-}
-
-/// Which runs failed.
-fn failures(rows: &[Row]) -> String {
-    let failed: Vec<&Row> = rows.iter().filter(|r| !r.is_ok()).collect();
-    let mut text = format!("{} runs, {} of them failed\n", rows.len(), failed.len());
-    for row in failed {
-        let _ = writeln!(text, "  {}: {}, {} left", row.name(), row.outcome, row.left);
-    }
-    text
+    let name = |slab: &Slab| format!("{} vertices, seed {}", slab.vertices, slab.seed);
+    context.measure(&plan.scenes, plan::weight, name, |&slab| {
+        measure::scene(slab, methods, &plan.effort)
+    })
 }

@@ -39,7 +39,6 @@ pub struct Row {
     pub repeatable: bool,
     pub agrees: Option<bool>,
     pub verified: Option<bool>,
-    pub commit: String,
 }
 
 impl Row {

@@ -35,13 +35,9 @@ pub const EXPERIMENT: Experiment = Experiment {
 };
 
 fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
-    let plan = if context.quick {
-        Plan::quick()
-    } else {
-        Plan::full()
-    };
+    let plan = context.plan(Plan::quick, Plan::full);
     let inputs = measure_all(&plan, context);
-    let rows = row::summaries(&inputs, &plan, &context.commit);
+    let rows = row::summaries(&inputs, &plan);
     let failures = row::failures(&inputs);
     let runs: usize = inputs.iter().map(|m| m.runs.len()).sum();
     let results = &context.results;
@@ -53,8 +49,8 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
             failures.len()
         ),
         files: vec![
-            results.rows("flip_order", &rows)?,
-            results.rows("flip_order-failures", &failures)?,
+            context.record("flip_order", &rows)?,
+            context.record("flip_order-failures", &failures)?,
             results.text("flip_order-precision.svg", &plots::precision(&rows)?)?,
         ],
         expectations: expect::expectations(&inputs),

@@ -75,8 +75,6 @@ pub struct Summary {
     pub other: u64,
     /// The part of the runs that did not end in the CDT.
     pub failure_rate: f64,
-    /// Of the sources.
-    pub commit: String,
 }
 
 impl Summary {
@@ -128,15 +126,14 @@ impl Summary {
 }
 
 /// All rows: for each family first `all`, then its subfamilies; for each of them the number types in the order of the plan.
-pub fn summaries(inputs: &[Measured], plan: &Plan, commit: &str) -> Vec<Summary> {
+pub fn summaries(inputs: &[Measured], plan: &Plan) -> Vec<Summary> {
     let mut rows = Vec::new();
     for family in &FAMILIES {
         let with_all = [ALL].into_iter().chain(family.subfamilies.iter().copied());
         for subfamily in with_all {
             for number in &plan.numbers {
                 let row = summary(inputs, family.name, subfamily, number);
-                let commit = commit.to_string();
-                rows.extend((row.inputs > 0).then_some(Summary { commit, ..row }));
+                rows.extend((row.inputs > 0).then_some(row));
             }
         }
     }
@@ -264,7 +261,7 @@ mod tests {
             .iter()
             .map(|n| measure(n.parse().expect("a name"), &plan))
             .collect();
-        let rows = summaries(&inputs, &plan, "c");
+        let rows = summaries(&inputs, &plan);
         let of = |subfamily: &str, times: &str| {
             let is = |r: &&Summary| {
                 (r.family, r.subfamily, r.times.as_str()) == ("prism", subfamily, times)
@@ -296,7 +293,7 @@ mod tests {
             "{kinds:?}"
         );
         assert_eq!((of("all", "exact").ok, of("all", "exact").kendall), (3, 0));
-        assert!(rows.iter().all(|r| r.commit == "c" && r.family == "prism"));
+        assert!(rows.iter().all(|r| r.family == "prism"));
         let failures = failures(&inputs);
         let f64: Vec<_> = failures.iter().filter(|f| f.times == "f64").collect();
         assert_eq!(

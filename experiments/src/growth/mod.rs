@@ -34,19 +34,15 @@ pub const EXPERIMENT: Experiment = Experiment {
 };
 
 fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
-    let plan = if context.quick {
-        Plan::quick()
-    } else {
-        Plan::full()
-    };
+    let plan = context.plan(Plan::quick, Plan::full);
     let rows = measure_all(&plan, context);
-    let summaries = row::summaries(&rows, &METHODS, &context.commit);
+    let summaries = row::summaries(&rows, &METHODS);
     let results = &context.results;
     Ok(Answer {
         text: row::table(&rows, &summaries),
         files: vec![
-            results.rows("growth", &rows)?,
-            results.rows("growth-summary", &summaries)?,
+            context.record("growth", &rows)?,
+            context.record("growth-summary", &summaries)?,
             results.text("growth.svg", &plots::growth(&rows, &METHODS)?)?,
         ],
         expectations: expect::expectations(&rows),
@@ -55,17 +51,11 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
 
 /// All sizes.
 fn measure_all(plan: &Plan, context: &Context) -> Vec<Row> {
-    let bar = context.bar(plan.sizes.iter().sum());
-    let mut rows = Vec::new();
-    for &size in &plan.sizes {
-        bar.set_message(format!("about {size} crossing tetrahedra"));
-        let measured = measure::measure(plan::slab(size), &METHODS, &plan.effort(size));
-        rows.extend(measured.into_iter().map(|row| Row {
-            commit: context.commit.clone(),
-            ..row
-        }));
-        bar.inc(size);
-    }
-    bar.finish_and_clear();
-    rows
+    let name = |size: &u64| format!("about {size} crossing tetrahedra");
+    context.measure(
+        &plan.sizes,
+        |&size| size,
+        name,
+        |&size| measure::measure(plan::slab(size), &METHODS, &plan.effort(size)),
+    )
 }

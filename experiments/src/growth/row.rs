@@ -29,7 +29,6 @@ pub struct Row {
     pub peak_megabytes: Option<f64>,
     pub repeatable: bool,
     pub agrees: Option<bool>,
-    pub commit: String,
 }
 
 impl Row {
@@ -61,26 +60,25 @@ pub struct Summary {
     pub worst_factor: f64,
     pub exponent_beyond_n_log_n: f64,
     pub worst_factor_n_log_n: f64,
-    pub commit: String,
 }
 
 /// The first number of vertices of the fit of large scenes, whose meshes no cache holds.
 const LARGE: f64 = 2500.0;
 
 /// For each method the fit of all sizes, and that of the large ones; those that have two sizes at least.
-pub fn summaries(rows: &[Row], methods: &[Method], commit: &str) -> Vec<Summary> {
+pub fn summaries(rows: &[Row], methods: &[Method]) -> Vec<Summary> {
     let mut summaries = Vec::new();
     for method in methods.iter().map(Method::to_string) {
         for from in [0.0, LARGE] {
             let of_method = rows.iter().filter(|r| r.method == method);
             let points = of_method.filter_map(Row::point).filter(|p| p.0 >= from);
-            summaries.extend(summary(&method, &points.collect::<Vec<_>>(), commit));
+            summaries.extend(summary(&method, &points.collect::<Vec<_>>()));
         }
     }
     summaries
 }
 
-fn summary(method: &str, points: &[(f64, f64)], commit: &str) -> Option<Summary> {
+fn summary(method: &str, points: &[(f64, f64)]) -> Option<Summary> {
     let law = power_law(points)?;
     let relative = points.iter().map(|&(n, t)| (n, t / (n * n.ln())));
     let beyond = power_law(&relative.collect::<Vec<_>>())?;
@@ -93,7 +91,6 @@ fn summary(method: &str, points: &[(f64, f64)], commit: &str) -> Option<Summary>
         worst_factor: rounded(law.worst_factor),
         exponent_beyond_n_log_n: rounded(beyond.exponent),
         worst_factor_n_log_n: rounded(beyond.worst_factor),
-        commit: commit.to_string(),
     })
 }
 
@@ -148,7 +145,7 @@ mod tests {
         let n_log_n = |n: usize| row(n, n as f64 * (n as f64).ln(), "ok");
         let mut rows: Vec<Row> = [300, 3000, 30_000].map(n_log_n).to_vec();
         rows.push(row(300_000, 1e-9, "stuck"));
-        let summaries = summaries(&rows, &METHODS, "c");
+        let summaries = summaries(&rows, &METHODS);
         assert_eq!(summaries.len(), 2, "all and large sizes of one method");
         assert_eq!((summaries[0].sizes, summaries[1].sizes), (3, 2));
         assert_eq!(

@@ -128,9 +128,8 @@ fn paper_section(files: &Files) -> String {
          and cavities of this library.</p>\n{}{}</section>\n",
         claims::html(files),
         beside::html(files.table("table1").ok().as_ref()),
-        paper::html(
-            "The paper’s <strong>Table 2</strong>: proportion of the time of polygon insertion.",
-            &paper::TABLE_2
+        paper::table_2(
+            "The paper’s <strong>Table 2</strong>: proportion of the time of polygon insertion."
         ),
     )
 }

@@ -64,15 +64,11 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    for row in &mut rows {
-        row.commit.clone_from(&context.commit);
-    }
     row::add_ratios(&mut rows);
-    let targets = row::targets(&rows, &context.commit);
-    let results = &context.results;
-    let mut files = vec![results.rows("rivals", &rows)?];
+    let targets = row::targets(&rows);
+    let mut files = vec![context.record("rivals", &rows)?];
     if !targets.is_empty() {
-        files.push(results.rows("rivals-targets", &targets)?);
+        files.push(context.record("rivals-targets", &targets)?);
     }
     let skipped: String = missing
         .iter()

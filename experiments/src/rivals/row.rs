@@ -37,7 +37,6 @@ pub struct Row {
     pub seconds_over_hxt: Option<f64>,
     pub wall_over_hxt_2: Option<f64>,
     pub verification_over_construction: Option<f64>,
-    pub commit: String,
 }
 
 impl Row {
@@ -98,11 +97,10 @@ pub struct Target {
     pub bound: f64,
     pub measured: f64,
     pub reached: bool,
-    pub commit: String,
 }
 
 /// All targets that the rows say something about.
-pub fn targets(rows: &[Row], commit: &str) -> Vec<Target> {
+pub fn targets(rows: &[Row]) -> Vec<Target> {
     let mut targets = Vec::new();
     let mut add = |what: &str, bound: f64, measured: Vec<f64>| {
         if let Some(worst) = measured.iter().copied().max_by(f64::total_cmp) {
@@ -112,7 +110,6 @@ pub fn targets(rows: &[Row], commit: &str) -> Vec<Target> {
                 bound,
                 measured: worst,
                 reached: worst <= bound,
-                commit: commit.to_string(),
             });
         }
     };
@@ -296,7 +293,7 @@ mod tests {
             (rows[2].seconds_over_tetgen, rows[3].seconds_over_tetgen),
             (None, None)
         );
-        let found = targets(&rows, "c");
+        let found = targets(&rows);
         let of = |start: &str| {
             let mut found = found.iter().filter(|t| t.what.starts_with(start));
             found.next().map(|t| (t.measured, t.reached))

@@ -47,7 +47,6 @@ pub fn measure(task: &Task, limit: Duration) -> Row {
         microseconds_each: per(seconds.map(|s| s * 1e6), task.size),
         peak_mebibytes: ran.peak_mebibytes.map(rounded),
         bytes_per_tetrahedron: tetrahedra.and_then(|n| per(bytes, n)),
-        ..Row::default()
     }
 }
 

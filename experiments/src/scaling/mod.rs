@@ -19,8 +19,7 @@ mod row;
 pub use measure::take_part;
 
 use crate::experiment::{Answer, Context, Experiment};
-use plan::Plan;
-use row::Row;
+use plan::{Plan, Task};
 use std::error::Error;
 
 /// The question and its cost.
@@ -32,27 +31,16 @@ pub const EXPERIMENT: Experiment = Experiment {
 };
 
 fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
-    let plan = if context.quick {
-        Plan::quick()
-    } else {
-        Plan::full()
-    };
-    let bar = context.bar(plan.tasks.iter().map(|t| t.size as u64).sum());
-    let mut rows: Vec<Row> = Vec::new();
-    for task in &plan.tasks {
-        bar.set_message(task.name());
-        rows.push(Row {
-            commit: context.commit.clone(),
-            ..measure::measure(task, context.limit)
-        });
-        bar.inc(task.size as u64);
-    }
-    bar.finish_and_clear();
+    let plan = context.plan(Plan::quick, Plan::full);
+    let weight = |task: &Task| task.size as u64;
+    let rows = context.measure(&plan.tasks, weight, Task::name, |task| {
+        vec![measure::measure(task, context.limit)]
+    });
     let results = &context.results;
     Ok(Answer {
         text: row::table(&rows),
         files: vec![
-            results.rows("scaling", &rows)?,
+            context.record("scaling", &rows)?,
             results.text("scaling.svg", &plots::seconds(&rows)?)?,
         ],
         expectations: expect::expectations(&rows),

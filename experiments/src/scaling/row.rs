@@ -15,7 +15,6 @@ pub struct Row {
     pub microseconds_each: Option<f64>,
     pub peak_mebibytes: Option<f64>,
     pub bytes_per_tetrahedron: Option<f64>,
-    pub commit: String,
 }
 
 impl Row {

@@ -63,16 +63,12 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
         }
     }
     bar.finish_and_clear();
-    for row in &mut rows {
-        row.commit.clone_from(&context.commit);
-    }
-    let summaries = row::summaries(&rows, &context.commit);
-    let results = &context.results;
+    let summaries = row::summaries(&rows);
     Ok(Answer {
         text: row::table(&rows, &summaries),
         files: vec![
-            results.rows("steiner", &rows)?,
-            results.rows("steiner-summary", &summaries)?,
+            context.record("steiner", &rows)?,
+            context.record("steiner-summary", &summaries)?,
         ],
         expectations: expect::expectations(&rows),
     })

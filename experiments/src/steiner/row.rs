@@ -16,7 +16,6 @@ pub struct Row {
     pub seconds: f64,
     pub outcome: &'static str,
     pub verified: Option<bool>,
-    pub commit: String,
 }
 
 impl Row {
@@ -41,11 +40,10 @@ pub struct Summary {
     pub common: usize,
     pub common_steiner_points: usize,
     pub fewest: usize,
-    pub commit: String,
 }
 
 /// One summary for each source and method, in order of appearance.
-pub fn summaries(rows: &[Row], commit: &str) -> Vec<Summary> {
+pub fn summaries(rows: &[Row]) -> Vec<Summary> {
     let mut keys: Vec<(&'static str, &str)> = Vec::new();
     for row in rows {
         if !keys.contains(&(row.source, &row.method)) {
@@ -73,7 +71,6 @@ pub fn summaries(rows: &[Row], commit: &str) -> Vec<Summary> {
             common: common.clone().count(),
             common_steiner_points: common.clone().filter_map(|r| r.steiner_points).sum(),
             fewest: fewest.count(),
-            commit: commit.to_string(),
         }
     };
     keys.iter().map(of).collect()
@@ -126,7 +123,7 @@ mod tests {
             row("b", "tetflip", Some(70), "ok"),
             row("b", "other", None, "failed"),
         ];
-        let sums = summaries(&rows, "c");
+        let sums = summaries(&rows);
         assert_eq!((sums[0].succeeded, sums[0].common), (2, 1));
         assert_eq!((sums[0].common_steiner_points, sums[0].fewest), (3, 1));
         assert_eq!((sums[1].common_steiner_points, sums[1].fewest), (5, 0));

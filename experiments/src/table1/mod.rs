@@ -44,12 +44,9 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    for row in &mut rows {
-        row.commit.clone_from(&context.commit);
-    }
     Ok(Answer {
         text: row::table(&rows),
-        files: vec![context.results.rows("table1", &rows)?],
+        files: vec![context.record("table1", &rows)?],
         expectations: expect::expectations(&rows),
     })
 }

@@ -32,7 +32,6 @@ pub struct Row {
     pub outcome: &'static str,
     pub agrees: Option<bool>,
     pub verified: Option<bool>,
-    pub commit: String,
 }
 
 /// The column `source` of the paper's numbers.

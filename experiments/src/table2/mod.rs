@@ -45,7 +45,6 @@ pub struct Row {
     flipping: Option<f64>,
     other: Option<f64>,
     outcome: &'static str,
-    commit: String,
 }
 
 fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
@@ -73,9 +72,6 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    for row in &mut rows {
-        row.commit.clone_from(&context.commit);
-    }
     let checks: [Check<Row>; 2] = [
         ("every built-in model succeeds", &|r| {
             r.source == "models" || r.outcome == outcome::OK
@@ -87,7 +83,7 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
     let expectations = check_rows(&rows, &checks, |r| format!("{}, {}", r.model, r.insertion));
     Ok(Answer {
         text: table(&rows),
-        files: vec![context.results.rows("table2", &rows)?],
+        files: vec![context.record("table2", &rows)?],
         expectations,
     })
 }

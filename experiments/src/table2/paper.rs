@@ -11,3 +11,21 @@ pub const TABLE_2: [(&str, [f64; 6]); 8] = [
     ("cognit", [60.5, 11.2, 2.5, 7.3, 55.5, 31.3]),
     ("nasty_cheese", [59.2, 11.0, 1.7, 6.8, 48.6, 34.3]),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table1::paper::TABLE_1;
+
+    /// The tasks of each algorithm take most of its time, and not more than all.
+    #[test]
+    fn the_parts_make_a_whole() {
+        for ((model, shares), column) in TABLE_2.iter().zip(TABLE_1) {
+            assert_eq!(*model, column.name);
+            let cavities = shares[..4].iter().sum::<f64>();
+            assert!((78.0..91.0).contains(&cavities), "{model}: {cavities}");
+            let flips = shares[4] + shares[5];
+            assert!((82.0..95.0).contains(&flips), "{model}: {flips}");
+        }
+    }
+}
