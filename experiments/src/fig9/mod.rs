@@ -6,7 +6,9 @@
 //! **Inputs.** Random vertices near the x-y plane and a rectangle in it ([`crate::scene`]); from about 30
 //! crossing tetrahedra to 100 000, several seeds for each size. A row is the insertion of the rectangle by one method.
 //!
-//! **Columns.** Of `fig9.csv`: [`row::Row`]; of `fig9-summary.csv`: [`summary::Summary`]. The README of this package has
+//! TetGen inserts the same rectangles where it is installed, in its two modes ([`tetgen`]).
+//!
+//! **Columns.** Of `fig9.csv`: [`row::Row`]; of `fig9-summary.csv`: [`summary::Summary`]; of `fig9-tetgen.csv`: [`tetgen::Row`]. The README of this package has
 //! their meaning. Seconds are wall clock of the polygon insertion alone, in one thread.
 //!
 //! **Expected.** Cavities and exact flips always succeed; every success is verified and all of one scene are the same
@@ -18,6 +20,7 @@ mod plan;
 mod plots;
 mod row;
 mod summary;
+mod tetgen;
 
 use crate::experiment::{Answer, Context, Experiment};
 use crate::method::Method;
@@ -49,12 +52,24 @@ fn run(context: &Context) -> Result<Answer, Box<dyn Error>> {
     for figure in plots::FIGURES {
         files.push(results.text(figure.file, &figure.svg(&rows, &methods)?)?);
     }
-    let table = summary::table(&summaries, &methods);
-    let failures = outcome::failures(&rows, |r| (r.name(), r.outcome, r.left));
+    let mut text = format!(
+        "Median milliseconds of the insertion of the rectangle:\n\n{}\n{}",
+        summary::table(&summaries, &methods),
+        outcome::failures(&rows, |r| (r.name(), r.outcome, r.left))
+    );
+    if let Some(program) = &context.tetgen {
+        let name = |slab: &Slab| format!("TetGen, {} vertices, seed {}", slab.vertices, slab.seed);
+        let beside = context.measure(&plan.scenes, plan::weight, name, |&slab| {
+            tetgen::measure(program, slab, &rows, context.limit)
+        });
+        files.push(context.record("fig9-tetgen", &beside)?);
+        files.push(results.text("fig9-tetgen.svg", &plots::beside_tetgen(&rows, &beside)?)?);
+        text += &tetgen::text(&beside);
+    } else {
+        text += "skipped: TetGen is not installed\n";
+    }
     Ok(Answer {
-        text: format!(
-            "Median milliseconds of the insertion of the rectangle:\n\n{table}\n{failures}"
-        ),
+        text,
         files,
         expectations: expect::expectations(&rows),
     })

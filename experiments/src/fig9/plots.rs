@@ -1,5 +1,6 @@
 //! The plots: the paper's two and the full range. Only successful runs are points.
 
+use super::tetgen;
 use crate::fig9::row::Row;
 use crate::method::Method;
 use crate::plot::{Plot, PlotError, Scale, Series};
@@ -76,6 +77,37 @@ impl Figure {
         let points = shown.filter_map(|r| Some((r.crossing_tets as f64, r.median_seconds? * 1e3)));
         points.collect()
     }
+}
+
+/// Cavities and filtered flips beside TetGen's two modes, all sizes.
+///
+/// # Errors
+/// If there is no point.
+pub fn beside_tetgen(rows: &[Row], tetgen: &[tetgen::Row]) -> Result<String, PlotError> {
+    let full = FIGURES.last().expect("there are figures");
+    let ours = Method::all().into_iter();
+    let ours = ours.filter(|m| m.insertion() == "cavity" || m.times() == "filtered");
+    let ours = ours.map(|method| Series {
+        name: method.to_string(),
+        points: full.points(rows, method),
+    });
+    let theirs = tetgen::MODES.iter().map(|&(mode, _)| {
+        let of_mode = tetgen.iter().filter(|r| r.mode == mode);
+        let point = |r: &tetgen::Row| Some((r.crossing_tets as f64, r.median_seconds? * 1e3));
+        Series {
+            name: format!("TetGen {mode}"),
+            points: of_mode.filter_map(point).filter(|p| p.1 > 0.0).collect(),
+        }
+    });
+    let plot = Plot {
+        title: "Inserting a rectangle, beside TetGen".to_string(),
+        x_label: "crossing tetrahedra".to_string(),
+        y_label: "median time in milliseconds".to_string(),
+        scale: Scale::Log,
+        series: ours.chain(theirs).collect(),
+        guides: Vec::new(),
+    };
+    plot.svg()
 }
 
 #[cfg(test)]

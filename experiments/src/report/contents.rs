@@ -110,6 +110,11 @@ pub const SECTIONS: [Section; 12] = [
             ),
             Figure("fig9-full", "All sizes, logarithmic."),
             Table("fig9-summary", "Medians by size class and method."),
+            Figure(
+                "fig9-tetgen",
+                "Cavities and filtered flips beside TetGen’s two modes, logarithmic.",
+            ),
+            Rows("fig9-tetgen", "TetGen’s runs, where it is installed."),
             Rows("fig9", "All scenes and methods."),
         ],
     },

@@ -18,9 +18,9 @@ mod measure;
 mod ours;
 mod plan;
 pub mod points;
-mod process;
+pub mod process;
 mod row;
-mod tetgen;
+pub mod tetgen;
 
 pub use ours::take_part;
 pub use process::{limited, number_after, processor_seconds, run as run_limited};
