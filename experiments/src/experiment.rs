@@ -108,7 +108,7 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order in which they are run.
-pub const ALL: [Experiment; 12] = [
+pub const ALL: [Experiment; 13] = [
     crate::models::EXPERIMENT,
     crate::fig8::EXPERIMENT,
     crate::fig9::EXPERIMENT,
@@ -118,6 +118,7 @@ pub const ALL: [Experiment; 12] = [
     crate::exactness_cost::EXPERIMENT,
     crate::flip_order::EXPERIMENT,
     crate::failures::EXPERIMENT,
+    crate::updates::EXPERIMENT,
     crate::steiner::EXPERIMENT,
     crate::rivals::EXPERIMENT,
     crate::scaling::EXPERIMENT,

@@ -32,3 +32,4 @@ pub mod suite;
 pub mod table1;
 pub mod table2;
 pub mod turns;
+pub mod updates;

@@ -9,6 +9,7 @@
 mod claims;
 mod cost;
 mod fig9;
+mod fig9_tetgen;
 mod flip_order;
 mod growth;
 mod lint;
@@ -19,6 +20,7 @@ mod optional;
 mod source;
 mod table;
 mod table1;
+mod updates;
 
 pub use claims::Claim;
 pub use lint::{Finding, digits};
@@ -202,7 +204,7 @@ mod tests {
         let generated = generate(&results()).expect("complete results");
         let numbers = &generated.files["numbers.tex"];
         let optional = [
-            "Rivals", "Scaling", "Steiner", "TableOne", "TableTwo", "Failures",
+            "Rivals", "Scaling", "Steiner", "TableOne", "TableTwo", "Failures", "Modes", "Updates",
         ];
         let needed = ["Machine", "FigNine", "Order", "Case", "Cost", "Growth"];
         let (mut files, mut commands) = (0, 0);

@@ -1,10 +1,11 @@
 //! Experiments that need other programs, other models or much memory: where their files are missing the paper says so.
 
 use super::Builder;
+use super::fig9_tetgen;
 use super::number::{ratio, significant, whole};
 use super::source::{PaperError, Row, Sheet};
 use super::table::{Table, cell, escaped, not_measured, of_sheet};
-use super::table1;
+use super::{table1, updates};
 use std::path::Path;
 
 /// A CSV that becomes a table as it is: the paper has `\input{generated/STEM-table}` and the switch `\ifSWITCH`.
@@ -97,6 +98,20 @@ pub fn add(builder: &mut Builder, results: &Path) -> Result<(), PaperError> {
         ("rivals-targets", "RivalsTargets"),
         always,
         targets,
+    )?;
+    optional(
+        builder,
+        results,
+        ("fig9-tetgen", "Modes"),
+        always,
+        fig9_tetgen::table,
+    )?;
+    optional(
+        builder,
+        results,
+        ("updates", "Updates"),
+        always,
+        updates::table,
     )?;
     optional(builder, results, ("scaling", "Scaling"), always, scaling)?;
     let summary = ("steiner-summary", "SteinerSummary");

@@ -81,7 +81,7 @@ const SCHOENHARDT: Pivot = Pivot {
 };
 
 /// All sections, in the order of the page.
-pub const SECTIONS: [Section; 12] = [
+pub const SECTIONS: [Section; 13] = [
     Section {
         stem: "fig8",
         title: "The scene (Fig. 8)",
@@ -182,6 +182,11 @@ pub const SECTIONS: [Section; 12] = [
         stem: "failures",
         title: "Failures of the paper’s kind",
         parts: &[Table("failures", "One row per failure.")],
+    },
+    Section {
+        stem: "updates",
+        title: "Deleting polygons and inserting them again",
+        parts: &[Table("updates", "One row per scene or model.")],
     },
     Section {
         stem: "steiner",
