@@ -8,6 +8,7 @@
 mod bytes;
 mod conflicts_vtu;
 mod error;
+mod lines;
 mod medit;
 mod mesh_error;
 mod mesh_file;

@@ -14,6 +14,7 @@
 //! TetGen 1.5.0 writes. The orientation of tetrahedra in its `.ele` files is ours, det[b−a, c−a, d−a] > 0, so
 //! that vertices keep their order. Time and memory are linear in the size of the files, whatever a header says.
 
+use super::lines::{Lines, write_lines};
 use super::mesh_file::Shortest;
 use super::text::Text;
 use super::{MeshFileError, MeshLineError, sibling};
@@ -26,48 +27,54 @@ use std::str::FromStr;
 /// Writes the vertices of a checked mesh.
 pub(super) fn write_node(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
     writeln!(out, "{} 3 0 0", mesh.vertices.len())?;
-    for (number, p) in numbered(mesh, &mesh.vertices) {
-        let [x, y, z] = p.map(Shortest);
-        writeln!(out, "{number} {x} {y} {z}")?;
-    }
-    Ok(())
+    let first = u64::from(mesh.first_index);
+    write_lines(out, &mesh.vertices, |line, i, p| {
+        line.number(first + i as u64);
+        p.iter().for_each(|&x| line.next_double(x));
+        line.end();
+    })
 }
 
 /// Writes the tetrahedra of a checked mesh.
 pub(super) fn write_ele(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
     let attributes = usize::from(!mesh.regions.is_empty());
     writeln!(out, "{} 4 {attributes}", mesh.tets.len())?;
-    for (i, (number, tet)) in numbered(mesh, &mesh.tets).enumerate() {
-        write!(out, "{number}")?;
-        write_vertices(out, mesh, tet)?;
+    write_lines(out, &mesh.tets, |line, i, tet| {
+        write_element(line, mesh, i, tet);
         if let Some(&region) = mesh.regions.get(i) {
-            write!(out, " {}", Shortest(region))?;
+            line.next_double(region);
         }
-        writeln!(out)?;
-    }
-    Ok(())
+        line.end();
+    })
 }
 
 /// Writes the faces of a checked mesh.
 pub(super) fn write_face(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
     writeln!(out, "{} 1", mesh.faces.len())?;
-    for (number, face) in numbered(mesh, &mesh.faces) {
-        write!(out, "{number}")?;
-        write_vertices(out, mesh, &face.vertices)?;
-        writeln!(out, " {}", face.marker)?;
-    }
-    Ok(())
+    write_lines(out, &mesh.faces, |line, i, face| {
+        write_element(line, mesh, i, &face.vertices);
+        line.next_marker(face.marker);
+        line.end();
+    })
 }
 
 /// Writes the edges of a checked mesh.
 pub(super) fn write_edge(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
     writeln!(out, "{} 1", mesh.edges.len())?;
-    for (number, edge) in numbered(mesh, &mesh.edges) {
-        write!(out, "{number}")?;
-        write_vertices(out, mesh, &edge.vertices)?;
-        writeln!(out, " {}", edge.marker)?;
+    write_lines(out, &mesh.edges, |line, i, edge| {
+        write_element(line, mesh, i, &edge.vertices);
+        line.next_marker(edge.marker);
+        line.end();
+    })
+}
+
+/// The number of an element and its vertices.
+fn write_element(line: &mut Lines, mesh: &ExportedMesh, i: usize, vertices: &[VertexId]) {
+    let first = u64::from(mesh.first_index);
+    line.number(first + i as u64);
+    for v in vertices {
+        line.next(first + u64::from(v.0));
     }
-    Ok(())
 }
 
 /// Writes the exact positions of a checked mesh.
@@ -81,21 +88,6 @@ pub(super) fn write_steiner(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Res
             write!(out, " {}", Shortest(t.rest))?;
         }
         writeln!(out)?;
-    }
-    Ok(())
-}
-
-fn numbered<'a, T>(mesh: &ExportedMesh, items: &'a [T]) -> impl Iterator<Item = (u64, &'a T)> {
-    (u64::from(mesh.first_index)..).zip(items)
-}
-
-fn write_vertices(
-    out: &mut dyn Write,
-    mesh: &ExportedMesh,
-    vertices: &[VertexId],
-) -> io::Result<()> {
-    for v in vertices {
-        write!(out, " {}", u64::from(mesh.first_index) + u64::from(v.0))?;
     }
     Ok(())
 }
