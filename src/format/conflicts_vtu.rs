@@ -7,8 +7,8 @@
 //! point) and `facet` (its number as in messages, −1 for what is none).
 
 use super::MeshFileError;
-use super::mesh_file::{Shortest, stage};
-use super::vtu::{array, close, open, rows};
+use super::mesh_file::stage;
+use super::vtu::{array, begin, close, open, rows};
 use crate::check::{Findings, Kind, Part, simplices_of_parts};
 use crate::mesh::VertexId;
 use crate::plc::Plc;
@@ -130,25 +130,7 @@ fn code(kind: &Kind) -> u8 {
 }
 
 fn write(out: &mut dyn Write, all: &Cells) -> io::Result<()> {
-    let (points, cells) = (all.points.len(), all.cells.len());
-    writeln!(out, r#"<?xml version="1.0"?>"#)?;
-    writeln!(
-        out,
-        r#"<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">"#
-    )?;
-    writeln!(out, "<UnstructuredGrid>")?;
-    writeln!(
-        out,
-        r#"<Piece NumberOfPoints="{points}" NumberOfCells="{cells}">"#
-    )?;
-    writeln!(out, "<Points>")?;
-    let coordinates = all.points.iter().map(|p| p.map(Shortest));
-    array(
-        out,
-        r#"type="Float64" Name="Points" NumberOfComponents="3""#,
-        coordinates,
-    )?;
-    writeln!(out, "</Points>")?;
+    begin(out, &all.points, all.cells.len())?;
 
     writeln!(out, "<Cells>")?;
     open(out, r#"type="Int64" Name="connectivity""#)?;

@@ -20,26 +20,8 @@ const TRIANGLE: u8 = 5;
 /// Writes a checked mesh.
 pub(super) fn write(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
     let (tets, faces) = (mesh.tets.len(), mesh.faces.len());
-    writeln!(out, r#"<?xml version="1.0"?>"#)?;
-    writeln!(
-        out,
-        r#"<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">"#
-    )?;
-    writeln!(out, "<UnstructuredGrid>")?;
-    let (points, cells) = (mesh.vertices.len(), tets + faces);
-    writeln!(
-        out,
-        r#"<Piece NumberOfPoints="{points}" NumberOfCells="{cells}">"#
-    )?;
-
-    writeln!(out, "<Points>")?;
-    let coordinates = mesh.vertices.iter().map(|p| p.map(Shortest));
-    array(
-        out,
-        r#"type="Float64" Name="Points" NumberOfComponents="3""#,
-        coordinates,
-    )?;
-    writeln!(out, "</Points>")?;
+    let cells = tets + faces;
+    begin(out, &mesh.vertices, cells)?;
 
     writeln!(out, "<Cells>")?;
     let id = |v: VertexId| v.0;
@@ -75,6 +57,28 @@ pub(super) fn write(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> 
     writeln!(out, "</CellData>")?;
 
     writeln!(out, "</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+/// Everything up to the cells.
+pub(super) fn begin(out: &mut dyn Write, points: &[[f64; 3]], cells: usize) -> io::Result<()> {
+    writeln!(out, r#"<?xml version="1.0"?>"#)?;
+    writeln!(
+        out,
+        r#"<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">"#
+    )?;
+    writeln!(out, "<UnstructuredGrid>")?;
+    writeln!(
+        out,
+        r#"<Piece NumberOfPoints="{}" NumberOfCells="{cells}">"#,
+        points.len()
+    )?;
+    writeln!(out, "<Points>")?;
+    array(
+        out,
+        r#"type="Float64" Name="Points" NumberOfComponents="3""#,
+        points.iter().map(|p| p.map(Shortest)),
+    )?;
+    writeln!(out, "</Points>")
 }
 
 pub(super) fn array<T: Display, const N: usize>(
