@@ -209,7 +209,7 @@ fn rivals(builder: &mut Builder, sheet: &Sheet) -> Result<String, PaperError> {
             .into_iter();
         let mut name = escaped(input);
         for ours in find("tetflip")? {
-            if ours.text("kind")? == "model" || ours.text("method")? == "verify" {
+            if ours.text("kind")?.starts_with("model") || ours.text("method")? == "verify" {
                 continue;
             }
             let verified = verifier.next();

@@ -23,6 +23,8 @@ pub enum Kind {
     Generated,
     /// A model of the user's.
     Model,
+    /// Its vertices alone.
+    ModelPoints,
 }
 
 impl Kind {
@@ -33,6 +35,7 @@ impl Kind {
             Kind::Scene => "scene",
             Kind::Generated => "generated",
             Kind::Model => "model",
+            Kind::ModelPoints => "model points",
         }
     }
 }
@@ -52,6 +55,7 @@ enum Source {
     Scene(Slab),
     Generated(Made, usize),
     File(PathBuf),
+    PointsOf(PathBuf),
 }
 
 /// An input as the programs read it.
@@ -93,7 +97,7 @@ impl Plan {
         Plan { inputs, rounds: 1 }
     }
 
-    /// Adds every file of a directory that is a PLC with facets, in order of name.
+    /// Adds every file of a directory that is a PLC with facets, in order of name: as a model, and its vertices alone.
     ///
     /// # Errors
     /// If the directory cannot be read.
@@ -103,12 +107,14 @@ impl Plan {
         paths.sort();
         for path in paths {
             if read_plc(&path).is_ok_and(|plc| !plc.facets.is_empty()) {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
                 self.inputs.push(Input {
-                    name: path
-                        .file_name()
-                        .unwrap_or_default()
-                        .to_string_lossy()
-                        .into(),
+                    name: format!("points of {name}"),
+                    kind: Kind::ModelPoints,
+                    source: Source::PointsOf(path.clone()),
+                });
+                self.inputs.push(Input {
+                    name: name.into_owned(),
                     kind: Kind::Model,
                     source: Source::File(path),
                 });
@@ -173,6 +179,10 @@ impl Input {
             Source::Scene(slab) => slab.plc(),
             Source::Generated(kind, size) => generate(*kind, 1, *size),
             Source::File(path) => read_plc(path)?,
+            Source::PointsOf(path) => Plc {
+                vertices: read_plc(path)?.vertices,
+                ..Plc::default()
+            },
         };
         let path = if plc.facets.is_empty() {
             let path = directory.join("input.node");
@@ -192,7 +202,7 @@ impl Input {
 
     /// Whether a program takes part.
     pub fn is_for(&self, contestant: &Contestant, vertices: usize) -> bool {
-        let points = matches!(self.kind, Kind::Points { .. });
+        let points = matches!(self.kind, Kind::Points { .. } | Kind::ModelPoints);
         match contestant {
             Contestant::Ours(Ours::Delaunay) => points,
             // Most of its time goes into numbers for Python and back, and what two threads gain shows on the largest input.
@@ -200,7 +210,9 @@ impl Input {
                 self.name.starts_with("uniform/") && (*threads == 1 || vertices >= MILLION)
             }
             Contestant::Ours(Ours::Cavity | Ours::Flips) => !points,
-            Contestant::Ours(Ours::Verifier) => vertices < MILLION,
+            Contestant::Ours(Ours::Verifier) => {
+                vertices < MILLION && self.kind != Kind::ModelPoints
+            }
             Contestant::TetGen { .. } => true,
         }
     }

@@ -160,10 +160,18 @@ pub fn targets(rows: &[Row]) -> Vec<Target> {
         );
     }
     add(
-        "verification / construction, worst input",
-        1.0,
-        each(&|_| true, |r| r.verification_over_construction),
+        "models' points: sum of seconds / TetGen's",
+        0.45,
+        sum_over_tetgen(rows, "model points", "delaunay"),
     );
+    for (what, points) in [("a CDT", false), ("points alone", true)] {
+        let of = |r: &Row| (r.kind == "points") == points;
+        add(
+            &format!("verification of {what} / construction, worst input"),
+            1.0,
+            each(&of, |r| r.verification_over_construction),
+        );
+    }
     targets
 }
 
