@@ -90,6 +90,7 @@ impl DoublePoints {
     }
 
     /// A point whose coordinates are no doubles.
+    #[inline]
     fn segment_point(&self, v: VertexId) -> Option<&SegmentPoint> {
         let [x, _, i] = self.points[v.index()];
         x.is_nan().then(|| &self.segment_points[i as usize].1)
@@ -244,6 +245,14 @@ impl PointStore for DoublePoints {
         let place = self.segment_points.len() as f64;
         self.segment_points.push((self.points.len(), point));
         self.push_unchecked([f64::NAN, f64::NAN, place])
+    }
+
+    fn coincide(&self, v: VertexId, w: VertexId) -> bool {
+        if self.is_double(v) && self.is_double(w) {
+            return self.points[v.index()] == self.points[w.index()];
+        }
+        let (v, w) = (self.exact(v), self.exact(w));
+        v.sub(&w).0.iter().all(|x| x.exact_sign().is_zero())
     }
 
     #[inline]

@@ -9,7 +9,8 @@
 //! tried again.
 
 use super::obstruction::is_obstructed;
-use super::segments::Recovered;
+use super::recovery::Recovered;
+use super::scratch::Stamps;
 use crate::delaunay::filling;
 use crate::mesh::{Incidence, VertexId};
 use crate::predicate::PointStore;
@@ -24,12 +25,14 @@ impl Recovered {
         let mut waiting = vec![true; count];
         // A stack: the last one, which was inserted when least was known, comes first.
         let mut stack: Vec<usize> = (0..count).collect();
+        let mut scratch = Link::default();
         while let Some(i) = stack.pop() {
             waiting[i] = false;
             if gone[i] {
                 continue;
             }
-            let Some(neighbours) = self.remove(points, VertexId::new(first + i)) else {
+            let Some(neighbours) = self.remove(points, VertexId::new(first + i), &mut scratch)
+            else {
                 continue;
             };
             gone[i] = true;
@@ -50,21 +53,24 @@ impl Recovered {
     }
 
     /// Removes the Steiner point v if its segment does not need it, and returns the vertices around.
-    fn remove<P: PointStore>(&mut self, points: &P, v: VertexId) -> Option<Vec<VertexId>> {
+    fn remove<P: PointStore>(
+        &mut self,
+        points: &P,
+        v: VertexId,
+        link: &mut Link,
+    ) -> Option<Vec<VertexId>> {
         let mesh = &mut self.delaunay.mesh;
         let [a, b] = self.subsegments.around(v);
         let mut star = self.incidence.star(mesh, v);
-        star.sort_unstable();
-        let mut link: Vec<VertexId> = star
-            .iter()
-            .flat_map(|&t| mesh.vertices(t))
-            .filter(|w| ![a, b, v, VertexId::INFINITE].contains(w))
-            .collect();
-        link.sort_unstable();
-        link.dedup();
-        if is_obstructed(points, [a, b], &link) {
+        link.collect(
+            points.len(),
+            &[a, b, v],
+            star.iter().map(|&t| mesh.vertices(t)),
+        );
+        if is_obstructed(points, [a, b], &link.vertices) {
             return None;
         }
+        star.sort_unstable();
         let filling = filling(points, mesh, &star, v)?;
         let joins = |t: &[VertexId; 4]| t.contains(&a) && t.contains(&b);
         if !filling.iter().any(joins) {
@@ -87,12 +93,40 @@ impl Recovered {
         let first = self.subsegments.first_steiner();
         let ids = self.subsegments.compact(gone);
         points.truncate(first);
-        self.subsegments.place(points);
+        self.subsegments.push_all(points);
         let mesh = &mut self.delaunay.mesh;
         mesh.rename_vertices(|v| match v.index().checked_sub(first) {
             Some(i) => ids[i].expect("the mesh has only vertices that are left"),
             None => v,
         });
         self.incidence = Incidence::new(mesh, points.len());
+    }
+}
+
+/// The neighbours of a vertex. Memory is used again.
+#[derive(Default)]
+struct Link {
+    vertices: Vec<VertexId>,
+    seen: Stamps,
+}
+
+impl Link {
+    /// Collects the finite vertices of a star but the given ones. There are ids below n.
+    fn collect(
+        &mut self,
+        n: usize,
+        without: &[VertexId],
+        star: impl Iterator<Item = [VertexId; 4]>,
+    ) {
+        self.vertices.clear();
+        self.seen.clear(n);
+        for v in without {
+            self.seen.insert(v.index());
+        }
+        for v in star.flatten() {
+            if !v.is_infinite() && self.seen.insert(v.index()) {
+                self.vertices.push(v);
+            }
+        }
     }
 }
