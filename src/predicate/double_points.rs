@@ -24,7 +24,7 @@
 
 use super::pairs;
 use super::range::Range;
-use super::segment_point::{SegmentPoint, between};
+use super::segment_point::{SegmentPoint, between, rounded_between};
 use super::{Parameter, PointStore, Steiner, formula};
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
@@ -235,6 +235,11 @@ impl PointStore for DoublePoints {
     /// half an ulp, or not at all where the result is representable. p and q must have double coordinates.
     fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: Parameter) -> VertexId {
         let ends = [p, q].map(|v| self.points[v.index()]);
+        if self.steiner == Steiner::Rounded
+            && let Some(doubles) = rounded_between(ends, t)
+        {
+            return self.push(doubles);
+        }
         let point = match SegmentPoint::new(ends, t) {
             Err(doubles) => return self.push(doubles),
             Ok(point) => point,

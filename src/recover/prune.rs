@@ -12,7 +12,7 @@ use super::obstruction::is_obstructed;
 use super::recovery::Recovered;
 use super::scratch::Stamps;
 use crate::delaunay::filling;
-use crate::mesh::{Incidence, VertexId};
+use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 
 impl Recovered {
@@ -25,14 +25,13 @@ impl Recovered {
         let mut waiting = vec![true; count];
         // A stack: the last one, which was inserted when least was known, comes first.
         let mut stack: Vec<usize> = (0..count).collect();
-        let mut scratch = Link::default();
+        let mut star = Star::default();
         while let Some(i) = stack.pop() {
             waiting[i] = false;
             if gone[i] {
                 continue;
             }
-            let Some(neighbours) = self.remove(points, VertexId::new(first + i), &mut scratch)
-            else {
+            let Some(neighbours) = self.remove(points, VertexId::new(first + i), &mut star) else {
                 continue;
             };
             gone[i] = true;
@@ -57,26 +56,37 @@ impl Recovered {
         &mut self,
         points: &P,
         v: VertexId,
-        link: &mut Link,
+        star: &mut Star,
     ) -> Option<Vec<VertexId>> {
         let mesh = &mut self.delaunay.mesh;
         let [a, b] = self.subsegments.around(v);
-        let mut star = self.incidence.star(mesh, v);
-        link.collect(
+        let tet = self.incidence.tet_at(v);
+        star.begin(
+            mesh,
             points.len(),
-            &[a, b, v],
-            star.iter().map(|&t| mesh.vertices(t)),
+            tet.expect("a Steiner point is in the mesh"),
+            [a, b, v],
         );
-        if is_obstructed(points, [a, b], &link.vertices) {
-            return None;
+        // Mostly some of the neighbours are enough.
+        let mut enough = FEW;
+        loop {
+            let all = star.collect(mesh, v, enough);
+            if is_obstructed(points, [a, b], &star.link) {
+                return None;
+            }
+            if all {
+                break;
+            }
+            enough *= 2;
         }
+        let star = &mut star.tets;
         star.sort_unstable();
-        let filling = filling(points, mesh, &star, v)?;
+        let filling = filling(points, mesh, star, v)?;
         let joins = |t: &[VertexId; 4]| t.contains(&a) && t.contains(&b);
         if !filling.iter().any(joins) {
             return None;
         }
-        let created = mesh.replace(&star, &filling);
+        let created = mesh.replace(star, &filling);
         self.incidence.update(mesh, &created);
         self.subsegments.join_at(v);
         let mut neighbours: Vec<VertexId> = filling
@@ -103,30 +113,62 @@ impl Recovered {
     }
 }
 
-/// The neighbours of a vertex. Memory is used again.
+/// Among how many neighbours those that obstruct an edge are looked for first.
+const FEW: usize = 16;
+
+/// The tetrahedra at a vertex and its neighbours, as far as they are known. Memory is used again.
 #[derive(Default)]
-struct Link {
-    vertices: Vec<VertexId>,
+struct Star {
+    /// Breadth first.
+    tets: Vec<TetId>,
+    /// How many of them have been looked at.
+    next: usize,
+    /// The neighbours, without some.
+    link: Vec<VertexId>,
+    found: Stamps,
     seen: Stamps,
 }
 
-impl Link {
-    /// Collects the finite vertices of a star but the given ones. There are ids below n.
-    fn collect(
-        &mut self,
-        n: usize,
-        without: &[VertexId],
-        star: impl Iterator<Item = [VertexId; 4]>,
-    ) {
-        self.vertices.clear();
+impl Star {
+    /// Starts with a tetrahedron; the given vertices do not count. There are ids of vertices below n.
+    fn begin(&mut self, mesh: &TetMesh, n: usize, first: TetId, without: [VertexId; 3]) {
+        self.tets.clear();
+        self.next = 0;
+        self.link.clear();
+        self.found.clear(mesh.capacity());
+        self.found.insert(first.index());
+        self.tets.push(first);
         self.seen.clear(n);
         for v in without {
             self.seen.insert(v.index());
         }
-        for v in star.flatten() {
-            if !v.is_infinite() && self.seen.insert(v.index()) {
-                self.vertices.push(v);
+        for v in mesh.vertices(first) {
+            self.note(v);
+        }
+    }
+
+    fn note(&mut self, v: VertexId) {
+        if !v.is_infinite() && self.seen.insert(v.index()) {
+            self.link.push(v);
+        }
+    }
+
+    /// Goes on around v until there are enough neighbours; whether these are all.
+    fn collect(&mut self, mesh: &TetMesh, v: VertexId, enough: usize) -> bool {
+        while let Some(&t) = self.tets.get(self.next) {
+            if self.link.len() >= enough {
+                return false;
+            }
+            self.next += 1;
+            let vertices = mesh.vertices(t);
+            for slot in (0..4).filter(|&slot| vertices[slot] != v) {
+                let across = mesh.twin(t.corner(slot));
+                if self.found.insert(across.tet().index()) {
+                    self.tets.push(across.tet());
+                    self.note(mesh.vertex(across));
+                }
             }
         }
+        true
     }
 }

@@ -14,6 +14,7 @@
 use super::obstruction::cross;
 use super::split::{dot, sub};
 use super::turn::inner_edges;
+use crate::machine::prefetch;
 use crate::mesh::{TetId, TetMesh, VertexId, any_infinite};
 use crate::predicate::PointStore;
 
@@ -92,6 +93,9 @@ impl Reaches {
             };
             reaches.marks[t.index()] = (reaches.stamp, place);
             if overlaps {
+                for slot in 0..4 {
+                    prefetch(&reaches.spheres, mesh.neighbor(t.corner(slot)).index());
+                }
                 reaches.tets.push(t);
                 reaches.spans.push(span);
             }
@@ -158,8 +162,8 @@ impl Reaches {
     ) -> Span {
         let line = Line::new(points, ab);
         self.begin(mesh);
-        let at_v = |t: &TetId| mesh.slot_of(*t, v).is_some();
-        self.tets.extend(seeds.iter().copied().find(at_v));
+        let at_v = |&&t: &&TetId| mesh.slot_of(t, v).is_some();
+        self.tets.extend(seeds.iter().find(at_v));
         let mut common = EMPTY;
         let mut next = 0;
         while let Some(&t) = self.tets.get(next).filter(|_| next <= most) {
@@ -169,13 +173,12 @@ impl Reaches {
                 continue;
             }
             common = [common[0].min(span[0]), common[1].max(span[1])];
-            for slot in 0..4 {
+            let opposite = mesh.corner_of(t, v).slot();
+            for slot in (0..4).filter(|&slot| slot != opposite) {
                 let n = mesh.neighbor(t.corner(slot));
-                if self.marks[n.index()].0 == self.stamp {
-                    continue;
-                }
-                if at_v(&n) {
+                if self.marks[n.index()].0 != self.stamp {
                     self.marks[n.index()] = (self.stamp, NOWHERE);
+                    prefetch(&self.spheres, n.index());
                     self.tets.push(n);
                 }
             }
@@ -268,6 +271,7 @@ fn within(&[x, y, z, gx, gy, gz, volume]: &[f64; 7], line: &Line) -> Span {
 }
 
 /// Where s u² + l u + c < 0 for s ≥ 0; for s < 0, by rounding, it is taken for linear.
+#[inline]
 fn negative(s: f64, l: f64, c: f64) -> Span {
     if s <= 0.0 {
         return if l > 0.0 {

@@ -22,6 +22,10 @@ use std::collections::BinaryHeap;
 /// need one every few ulps.
 pub(super) const MOST_VERTICES_PER_SEGMENT: usize = 1 << 14;
 
+/// The search for harmless places is given up if it has more points than the rules had needed so far, by this part of what
+/// these need in the end. A few per cent are often made up for later.
+const TOO_FAR_BEHIND: usize = 24;
+
 /// A tetrahedralization with all segments.
 pub(super) struct Recovered {
     pub(super) delaunay: Delaunay,
@@ -112,8 +116,8 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
         }
     }
 
-    /// By the rules, notes how far it is when it comes to shorter subsegments; otherwise gives up if it is not ahead of
-    /// that, once it has a quarter of the points that would make it useless.
+    /// By the rules, notes how far it is when it comes to shorter subsegments. Otherwise gives up if it is too far behind
+    /// that, or not ahead of it once it has a quarter of the points that would make it useless.
     pub(super) fn recover_missing(&mut self, levels: &mut Vec<Level>) -> Result<(), Failure> {
         let mut shortest = u64::MAX;
         let mut next = 0;
@@ -127,8 +131,10 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
                         while levels.get(next).is_some_and(|level| level.length > length) {
                             next += 1;
                         }
-                        let not_ahead = levels.get(next).is_some_and(|level| level.count <= count);
-                        if not_ahead && count > most / 4 {
+                        let by_rules = levels.get(next).map_or(usize::MAX, |level| level.count);
+                        if count >= by_rules && count > most / 4
+                            || count.saturating_sub(by_rules) > most / TOO_FAR_BEHIND
+                        {
                             let segment = [a, b];
                             return Err(GaveUp::TooManySteinerPoints { segment }.into());
                         }

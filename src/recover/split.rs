@@ -115,8 +115,9 @@ pub(super) fn fewest_bits(t: f64, slack: f64) -> f64 {
     if slack <= 0.0 {
         return t;
     }
+    const MOST: f64 = (1u64 << 52) as f64;
     let mut scale = 1.0;
-    while scale < 2f64.powi(52) {
+    while scale < MOST {
         let rounded = (t * scale).round() / scale;
         if (rounded - t).abs() <= slack {
             return rounded;
