@@ -126,7 +126,8 @@ fn place(from: u8, to: u8) -> usize {
 /// [`Star::fill`] with a hash table.
 #[cold]
 fn fill_large(mesh: &mut TetMesh, p: VertexId, boundary: &[BoundaryFacet], new: &[TetId]) {
-    let mut opposite: FxHashMap<[VertexId; 2], Corner> = FxHashMap::default();
+    let mut opposite: FxHashMap<[VertexId; 2], Corner> =
+        FxHashMap::with_capacity_and_hasher(3 * boundary.len(), Default::default());
     for (facet, &t) in boundary.iter().zip(new) {
         let [a, b, c] = facet.vertices;
         for (slot, edge) in [[b, c], [c, a], [a, b]].into_iter().enumerate() {

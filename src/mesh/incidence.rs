@@ -7,14 +7,17 @@ use rustc_hash::FxHashSet;
 /// [`Incidence::update`].
 #[derive(Clone, Debug, Default)]
 pub struct Incidence {
-    tet_at: Vec<Option<TetId>>,
+    tet_at: Vec<TetId>,
 }
+
+/// In place of a tetrahedron of vertices that are not in the mesh.
+const NONE: TetId = TetId(u32::MAX);
 
 impl Incidence {
     /// The incidence of a whole mesh whose vertices have ids below `n`.
     pub fn new(mesh: &TetMesh, n: usize) -> Incidence {
         let mut incidence = Incidence {
-            tet_at: vec![None; n],
+            tet_at: vec![NONE; n],
         };
         for t in mesh.finite() {
             incidence.record(mesh, t);
@@ -34,15 +37,16 @@ impl Incidence {
     fn record(&mut self, mesh: &TetMesh, t: TetId) {
         for v in mesh.vertices(t) {
             if self.tet_at.len() <= v.index() {
-                self.tet_at.resize(v.index() + 1, None);
+                self.tet_at.resize(v.index() + 1, NONE);
             }
-            self.tet_at[v.index()] = Some(t);
+            self.tet_at[v.index()] = t;
         }
     }
 
     /// A finite tetrahedron at `v`, or `None` if `v` is not in the mesh.
     pub fn tet_at(&self, v: VertexId) -> Option<TetId> {
-        self.tet_at.get(v.index()).copied().flatten()
+        let t = self.tet_at.get(v.index()).copied();
+        t.filter(|&t| t != NONE)
     }
 
     /// A tetrahedron with the edge ab, by a search of both stars in turn: time linear in the size of the smaller one, as
@@ -65,38 +69,60 @@ impl Incidence {
     }
 
     fn walk<'a>(&self, mesh: &'a TetMesh, v: VertexId) -> StarWalk<'a> {
-        let found: Vec<TetId> = self.tet_at(v).into_iter().collect();
+        let mut found = Vec::with_capacity(FEW);
+        found.extend(self.tet_at(v));
         StarWalk {
             mesh,
             v,
-            seen: found.iter().copied().collect(),
             found,
+            seen: FxHashSet::default(),
             next: 0,
         }
     }
 }
+
+/// Most stars have fewer tetrahedra; among so many a scan is faster than a hash table.
+const FEW: usize = 64;
 
 /// The tetrahedra at `v`, breadth first.
 struct StarWalk<'a> {
     mesh: &'a TetMesh,
     v: VertexId,
     found: Vec<TetId>,
+    /// Those found, from [`FEW`] of them on.
     seen: FxHashSet<TetId>,
     next: usize,
+}
+
+impl StarWalk<'_> {
+    #[inline]
+    fn find(&mut self, t: TetId) {
+        if self.found.len() < FEW {
+            if !self.found.contains(&t) {
+                self.found.push(t);
+            }
+            return;
+        }
+        if self.seen.is_empty() {
+            self.seen.extend(&self.found);
+        }
+        if self.seen.insert(t) {
+            self.found.push(t);
+        }
+    }
 }
 
 impl Iterator for StarWalk<'_> {
     type Item = TetId;
 
+    #[inline]
     fn next(&mut self) -> Option<TetId> {
         let &t = self.found.get(self.next)?;
         self.next += 1;
-        let vertices = self.mesh.vertices(t);
-        for slot in (0..4).filter(|&slot| vertices[slot] != self.v) {
-            let n = self.mesh.neighbor(t.corner(slot));
-            if self.seen.insert(n) {
-                self.found.push(n);
-            }
+        let (mesh, v) = (self.mesh, self.v);
+        let vertices = mesh.vertices(t);
+        for slot in (0..4).filter(|&slot| vertices[slot] != v) {
+            self.find(mesh.neighbor(t.corner(slot)));
         }
         Some(t)
     }

@@ -24,7 +24,7 @@
 
 use super::pairs;
 use super::range::Range;
-use super::segment_point::{SegmentPoint, between};
+use super::segment_point::{SegmentPoint, between, rounded_between};
 use super::{Parameter, PointStore, Steiner, formula};
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
@@ -90,6 +90,7 @@ impl DoublePoints {
     }
 
     /// A point whose coordinates are no doubles.
+    #[inline]
     fn segment_point(&self, v: VertexId) -> Option<&SegmentPoint> {
         let [x, _, i] = self.points[v.index()];
         x.is_nan().then(|| &self.segment_points[i as usize].1)
@@ -234,6 +235,11 @@ impl PointStore for DoublePoints {
     /// half an ulp, or not at all where the result is representable. p and q must have double coordinates.
     fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: Parameter) -> VertexId {
         let ends = [p, q].map(|v| self.points[v.index()]);
+        if self.steiner == Steiner::Rounded
+            && let Some(doubles) = rounded_between(ends, t)
+        {
+            return self.push(doubles);
+        }
         let point = match SegmentPoint::new(ends, t) {
             Err(doubles) => return self.push(doubles),
             Ok(point) => point,
@@ -244,6 +250,14 @@ impl PointStore for DoublePoints {
         let place = self.segment_points.len() as f64;
         self.segment_points.push((self.points.len(), point));
         self.push_unchecked([f64::NAN, f64::NAN, place])
+    }
+
+    fn coincide(&self, v: VertexId, w: VertexId) -> bool {
+        if self.is_double(v) && self.is_double(w) {
+            return self.points[v.index()] == self.points[w.index()];
+        }
+        let (v, w) = (self.exact(v), self.exact(w));
+        v.sub(&w).0.iter().all(|x| x.exact_sign().is_zero())
     }
 
     #[inline]

@@ -8,10 +8,10 @@
 //! the points of the other.
 //!
 //! All of this is a choice only: wherever the point is put, recovery stays correct. So floats do. The search ends because
-//! the effort is bounded ([`super::segments::Placement`]).
+//! the effort is bounded ([`Placement`]).
 
 use super::reach::Span;
-use super::segments::{Placement, SegmentRecovery};
+use super::recovery::{Placement, SegmentRecovery};
 use super::split::{Subsegment, fewest_bits};
 use crate::mesh::{TetId, VertexId};
 use crate::predicate::PointStore;
@@ -26,22 +26,17 @@ const SLACK: f64 = 0.25;
 const MOST_TETS: usize = 1000;
 
 impl<P: PointStore> SegmentRecovery<'_, P> {
-    /// The parameter of the best place on the subsegment ab of segment s, if it is better than t, which the rules say.
+    /// The parameter of the best place on the subsegment ab, in the direction of its segment, if it is better than t, which
+    /// the rules say.
     /// `crossed` are the tetrahedra that the subsegment crosses.
     pub(super) fn less_harmful(
         &mut self,
-        s: u32,
-        [a, b]: [VertexId; 2],
+        ab: [VertexId; 2],
         subsegment: &Subsegment,
         t: f64,
         crossed: &[TetId],
     ) -> f64 {
         let [t0, t1] = subsegment.range;
-        let ab = if self.subsegments.parameter(s, a).value == t0 {
-            [a, b]
-        } else {
-            [b, a]
-        };
         let [low, high] = self.leaves_halves(ab, crossed);
         let range = [low.max(MARGIN), high.min(1.0 - MARGIN)];
         // If no place leaves both halves, more points have to come, and places for this one are no better than others.
@@ -84,11 +79,9 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         self.harmful.clear();
         if looked.is_some() {
             let (subsegments, harmful) = (&self.subsegments, &mut self.harmful);
-            self.reaches.vanishing(mesh, range, |[x, y], span| {
-                if subsegments.segment_of(x, y).is_some() {
-                    harmful.push(span);
-                }
-            });
+            let wanted = |[x, y]: [VertexId; 2]| subsegments.segment_of(x, y).is_some();
+            self.reaches
+                .vanishing(mesh, range, wanted, |_, span| harmful.push(span));
         }
         looked.is_some()
     }

@@ -18,6 +18,8 @@ mod obstruction;
 pub mod polygons;
 mod prune;
 mod reach;
+mod recovery;
+mod refusal;
 pub mod region;
 pub mod rounding;
 pub mod scout;

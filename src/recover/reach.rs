@@ -6,11 +6,16 @@
 //! tetrahedra, and a vertex is joined to the new one for those that are in the interval of one of its tetrahedra.
 //!
 //! In floats: what they tell is for choosing places, not for deciding.
+//!
+//! With the first corner o of a positive tetrahedron as the origin and its edges e, f, g from there, whose determinant is D,
+//! a point x is inside the circumsphere iff D |x|² − x·G < 0, where G = |e|² f×g + |f|² g×e + |g|² e×f. D and G are kept
+//! for each tetrahedron until it is replaced: most are looked at many times.
 
 use super::obstruction::cross;
 use super::split::{dot, sub};
 use super::turn::inner_edges;
-use crate::mesh::{TetId, TetMesh, VertexId};
+use crate::machine::prefetch;
+use crate::mesh::{TetId, TetMesh, VertexId, any_infinite};
 use crate::predicate::PointStore;
 
 /// An open interval; empty if its ends are not in order.
@@ -30,6 +35,31 @@ pub(super) struct Reaches {
     stamp: u32,
     tets: Vec<TetId>,
     spans: Vec<Span>,
+    /// For each tetrahedron o, G and D; zeros if they are not known.
+    spheres: Vec<[f64; 7]>,
+}
+
+/// A line through A and B.
+struct Line {
+    a: [f64; 3],
+    b: [f64; 3],
+    /// B − A and its square.
+    along: [f64; 3],
+    square: f64,
+}
+
+impl Line {
+    fn new<P: PointStore>(points: &P, [a, b]: [VertexId; 2]) -> Line {
+        let [a, b] = [points.rounded(a), points.rounded(b)];
+        let along = sub(b, a);
+        let square = dot(along, along);
+        Line {
+            a,
+            b,
+            along,
+            square,
+        }
+    }
 }
 
 const NOWHERE: u32 = u32::MAX;
@@ -41,12 +71,12 @@ impl Reaches {
         &mut self,
         points: &P,
         mesh: &TetMesh,
-        [a, b]: [VertexId; 2],
+        ab: [VertexId; 2],
         seeds: &[TetId],
         range: Span,
         most: usize,
     ) -> Option<usize> {
-        let line = [points.rounded(a), points.rounded(b)];
+        let line = Line::new(points, ab);
         self.begin(mesh);
         let mut looked = 0;
         let mut visit = |reaches: &mut Reaches, t: TetId| {
@@ -54,7 +84,7 @@ impl Reaches {
                 return;
             }
             looked += 1;
-            let span = span(points, mesh, t, line);
+            let span = reaches.span(points, mesh, t, &line);
             let overlaps = span[0].max(range[0]) <= span[1].min(range[1]);
             let place = if overlaps {
                 reaches.tets.len() as u32
@@ -63,6 +93,9 @@ impl Reaches {
             };
             reaches.marks[t.index()] = (reaches.stamp, place);
             if overlaps {
+                for slot in 0..4 {
+                    prefetch(&reaches.spheres, mesh.neighbor(t.corner(slot)).index());
+                }
                 reaches.tets.push(t);
                 reaches.spans.push(span);
             }
@@ -87,12 +120,29 @@ impl Reaches {
             self.stamp = 0;
         }
         self.stamp += 1;
-        let length = mesh.capacity().max(self.marks.len());
-        self.marks.resize(length, (0, 0));
+        let n = mesh.capacity();
+        if self.marks.is_empty() {
+            // Zeros that cost nothing until they are touched.
+            self.marks = vec![(0, 0); n];
+            self.spheres = vec![[0.0; 7]; n];
+        } else if self.marks.len() < n {
+            self.marks.resize(n, (0, 0));
+            self.spheres.resize(n, [0.0; 7]);
+        }
         self.tets.clear();
         self.spans.clear();
     }
 
+    /// To be called with the tetrahedra that an operation created.
+    pub(super) fn forget(&mut self, created: &[TetId]) {
+        for t in created {
+            if let Some(sphere) = self.spheres.get_mut(t.index()) {
+                *sphere = [0.0; 7];
+            }
+        }
+    }
+
+    #[inline]
     fn place(&self, t: TetId) -> Option<usize> {
         let (stamp, place) = self.marks[t.index()];
         (stamp == self.stamp && place != NOWHERE).then_some(place as usize)
@@ -105,28 +155,30 @@ impl Reaches {
         &mut self,
         points: &P,
         mesh: &TetMesh,
-        [a, b]: [VertexId; 2],
+        ab: [VertexId; 2],
         v: VertexId,
         seeds: &[TetId],
         most: usize,
     ) -> Span {
-        let line = [points.rounded(a), points.rounded(b)];
+        let line = Line::new(points, ab);
         self.begin(mesh);
-        let at_v = |t: &TetId| mesh.slot_of(*t, v).is_some();
-        self.tets.extend(seeds.iter().copied().find(at_v));
+        let at_v = |&&t: &&TetId| mesh.slot_of(t, v).is_some();
+        self.tets.extend(seeds.iter().find(at_v));
         let mut common = EMPTY;
         let mut next = 0;
         while let Some(&t) = self.tets.get(next).filter(|_| next <= most) {
             next += 1;
-            let span = span(points, mesh, t, line);
+            let span = self.span(points, mesh, t, &line);
             if span[0].max(0.0) >= span[1].min(1.0) {
                 continue;
             }
             common = [common[0].min(span[0]), common[1].max(span[1])];
-            for slot in 0..4 {
+            let opposite = mesh.corner_of(t, v).slot();
+            for slot in (0..4).filter(|&slot| slot != opposite) {
                 let n = mesh.neighbor(t.corner(slot));
-                if self.marks[n.index()].0 != self.stamp && at_v(&n) {
+                if self.marks[n.index()].0 != self.stamp {
                     self.marks[n.index()] = (self.stamp, NOWHERE);
+                    prefetch(&self.spheres, n.index());
                     self.tets.push(n);
                 }
             }
@@ -137,11 +189,12 @@ impl Reaches {
         common
     }
 
-    /// Calls `visit` with each edge that some new vertices make vanish, and with where these are.
+    /// Calls `visit` with each wanted edge that some new vertices make vanish, and with where these are.
     pub(super) fn vanishing(
         &self,
         mesh: &TetMesh,
         range: Span,
+        wanted: impl Fn([VertexId; 2]) -> bool,
         visit: impl FnMut([VertexId; 2], Span),
     ) {
         let narrow = |s: Span, t: TetId| {
@@ -150,50 +203,75 @@ impl Reaches {
             (common[0] <= common[1]).then_some(common)
         };
         let is_in = |t| self.place(t).is_some();
-        inner_edges(mesh, &self.tets, is_in, range, narrow, visit);
+        inner_edges(mesh, &self.tets, is_in, wanted, range, narrow, visit);
+    }
+
+    /// For which u the point A + u(B − A) is in conflict with t.
+    #[inline]
+    fn span<P: PointStore>(&mut self, points: &P, mesh: &TetMesh, t: TetId, line: &Line) -> Span {
+        let v = mesh.vertices(t);
+        if any_infinite(v) {
+            return self.span_of_ghost(points, mesh, t, line);
+        }
+        let sphere = &mut self.spheres[t.index()];
+        if sphere[6] == 0.0 {
+            *sphere = circumsphere(points, v);
+        }
+        within(sphere, line)
+    }
+
+    /// Segments are never beyond a hull facet, but may be in its plane.
+    fn span_of_ghost<P: PointStore>(
+        &mut self,
+        points: &P,
+        mesh: &TetMesh,
+        t: TetId,
+        line: &Line,
+    ) -> Span {
+        let c = mesh.corner_of(t, VertexId::INFINITE);
+        let [p, q, r] = mesh.facet(c).map(|v| points.rounded(v));
+        let normal = cross(sub(q, p), sub(r, p));
+        let is_near = |x: [f64; 3]| {
+            let x = sub(x, p);
+            let height = dot(x, normal);
+            height * height <= FLAT * FLAT * dot(x, x) * dot(normal, normal)
+        };
+        if is_near(line.a) && is_near(line.b) {
+            self.span(points, mesh, mesh.neighbor(c), line)
+        } else {
+            EMPTY
+        }
     }
 }
 
-/// For which u the point A + u(B − A) is in conflict with t.
-fn span<P: PointStore>(points: &P, mesh: &TetMesh, t: TetId, line: [[f64; 3]; 2]) -> Span {
-    let Some(slot) = mesh.slot_of(t, VertexId::INFINITE) else {
-        return within_sphere(mesh.vertices(t).map(|v| points.rounded(v)), line);
-    };
-    // A ghost: segments are never beyond a hull facet, but may be in its plane.
-    let c = t.corner(slot);
-    let [p, q, r] = mesh.facet(c).map(|v| points.rounded(v));
-    let normal = cross(sub(q, p), sub(r, p));
-    let is_near = |x: [f64; 3]| {
-        let x = sub(x, p);
-        let height = dot(x, normal);
-        height * height <= FLAT * FLAT * dot(x, x) * dot(normal, normal)
-    };
-    if line.into_iter().all(is_near) {
-        let corners = mesh.vertices(mesh.neighbor(c));
-        within_sphere(corners.map(|v| points.rounded(v)), line)
-    } else {
-        EMPTY
-    }
-}
-
-/// For which u the point A + u(B − A) is in the circumsphere of a positive tetrahedron.
-///
-/// With the first corner as the origin and edges e, f, g, whose determinant is D, a point x is inside iff
-/// D |x|² − x·(|e|² f×g + |f|² g×e + |g|² e×f) < 0.
-fn within_sphere([o, p, q, r]: [[f64; 3]; 4], [a, b]: [[f64; 3]; 2]) -> Span {
-    let [e, f, g] = [p, q, r].map(|p| sub(p, o));
+/// What is kept of a positive tetrahedron.
+fn circumsphere<P: PointStore>(points: &P, [o, p, q, r]: [VertexId; 4]) -> [f64; 7] {
+    let [o, p, q, r] = [
+        points.rounded(o),
+        points.rounded(p),
+        points.rounded(q),
+        points.rounded(r),
+    ];
+    let (e, f, g) = (sub(p, o), sub(q, o), sub(r, o));
     let (fg, ge, ef) = (cross(f, g), cross(g, e), cross(e, f));
-    let volume = dot(e, fg);
     let (ee, ff, gg) = (dot(e, e), dot(f, f), dot(g, g));
-    let gradient = [0, 1, 2].map(|i| ee * fg[i] + ff * ge[i] + gg * ef[i]);
-    let (x, d) = (sub(a, o), sub(b, a));
-    let square = volume * dot(d, d);
+    let gradient = |i: usize| ee * fg[i] + ff * ge[i] + gg * ef[i];
+    let [x, y, z] = o;
+    [x, y, z, gradient(0), gradient(1), gradient(2), dot(e, fg)]
+}
+
+/// For which u the point A + u(B − A) is in a sphere.
+#[inline]
+fn within(&[x, y, z, gx, gy, gz, volume]: &[f64; 7], line: &Line) -> Span {
+    let (x, d, gradient) = (sub(line.a, [x, y, z]), line.along, [gx, gy, gz]);
+    let square = volume * line.square;
     let linear = 2.0 * volume * dot(x, d) - dot(d, gradient);
     let constant = volume * dot(x, x) - dot(x, gradient);
     negative(square, linear, constant)
 }
 
 /// Where s u² + l u + c < 0 for s ≥ 0; for s < 0, by rounding, it is taken for linear.
+#[inline]
 fn negative(s: f64, l: f64, c: f64) -> Span {
     if s <= 0.0 {
         return if l > 0.0 {

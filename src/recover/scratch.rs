@@ -52,9 +52,55 @@ impl<V: Copy + Default + PartialEq> Table<V> {
     }
 }
 
+/// A set of ids that is emptied in no time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stamps {
+    stamps: Vec<u32>,
+    current: u32,
+}
+
+impl Stamps {
+    /// Empties the set; ids below `n` can be inserted.
+    pub(super) fn clear(&mut self, n: usize) {
+        if self.current == u32::MAX {
+            self.stamps.fill(0);
+            self.current = 0;
+        }
+        self.current += 1;
+        if self.stamps.len() < n {
+            // Not one by one where `n` grows with each call.
+            self.stamps.resize(n + n / 8, 0);
+        }
+    }
+
+    /// Whether i is in the set.
+    #[inline]
+    pub(super) fn contains(&self, i: usize) -> bool {
+        self.stamps[i] == self.current
+    }
+
+    /// Inserts i; whether it is new.
+    #[inline]
+    pub(super) fn insert(&mut self, i: usize) -> bool {
+        std::mem::replace(&mut self.stamps[i], self.current) != self.current
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cleared_stamps_are_empty() {
+        let mut stamps = Stamps::default();
+        stamps.clear(3);
+        assert!(stamps.insert(2) && stamps.insert(0) && !stamps.insert(2));
+        assert!(stamps.contains(2) && !stamps.contains(1));
+        stamps.current = u32::MAX;
+        stamps.insert(1);
+        stamps.clear(4);
+        assert!((0..4).all(|i| !stamps.contains(i)));
+    }
 
     #[test]
     fn cleared_tables_are_empty() {

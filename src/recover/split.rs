@@ -112,8 +112,12 @@ fn projection(s: &Subsegment, reference: Option<Reference>) -> f64 {
 
 /// The number with the fewest bits after the binary point that is within `slack` of t.
 pub(super) fn fewest_bits(t: f64, slack: f64) -> f64 {
+    if slack <= 0.0 {
+        return t;
+    }
+    const MOST: f64 = (1u64 << 52) as f64;
     let mut scale = 1.0;
-    while scale < 2f64.powi(52) {
+    while scale < MOST {
         let rounded = (t * scale).round() / scale;
         if (rounded - t).abs() <= slack {
             return rounded;
@@ -130,15 +134,18 @@ pub fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     dot(u, v) / (dot(u, u) * dot(v, v)).sqrt()
 }
 
+#[inline]
 pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+#[inline]
 pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The distance of two points.
+#[inline]
 pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = sub(a, b);
     dot(d, d).sqrt()

@@ -1,64 +1,96 @@
 //! How segments are divided into subsegments by their Steiner points.
+//!
+//! The vertices of a segment are linked from its first end to its second: each Steiner point knows the two next to it, and
+//! each segment the two next to its ends. So a pair of vertices is a subsegment if one names the other, which takes one
+//! look-up, and a division changes four links. Pairs of vertices of the input, and only those, are searched for in a table.
 
 use crate::mesh::VertexId;
 use crate::plc::Complex;
 use crate::predicate::{Parameter, PointStore};
-use rustc_hash::FxHashMap;
+use std::sync::Arc;
 
 const ON_SEGMENT: &str = "this Steiner point is on a segment";
 
 /// The segments of a complex and how they are divided into subsegments.
 #[derive(Clone, Debug, Default)]
 pub struct Subsegments {
-    /// The segment of each subsegment, by its vertices in ascending order.
-    of: FxHashMap<[VertexId; 2], u32>,
-    /// For each segment its vertices with their parameters; from end to end once recovery is finished.
-    chains: Vec<Vec<(Parameter, VertexId)>>,
-    /// For each Steiner point, the segment it lies on and its parameter there, or `None` if it lies on a polygon; indexed
-    /// from `first_steiner`.
-    steiner: Vec<Option<(u32, Parameter)>>,
+    index: SegmentIndex,
+    segments: Vec<Chain>,
+    /// For each Steiner point the vertices before and after it on its segment; twice the vertex at infinity if it lies on
+    /// a polygon. Indexed from `first_steiner`, like `places`.
+    around: Vec<[VertexId; 2]>,
+    /// For each Steiner point, the segment it lies on and its parameter there, or `None` if it lies on a polygon.
+    places: Vec<Option<(u32, Parameter)>>,
     first_steiner: usize,
-    ends: Vec<[VertexId; 2]>,
+}
+
+/// One segment.
+#[derive(Clone, Copy, Debug)]
+struct Chain {
+    ends: [VertexId; 2],
+    /// The vertex after the first end and the vertex before the second.
+    inner: [VertexId; 2],
+    /// The number of vertices, the ends included.
+    vertices: u32,
 }
 
 impl Subsegments {
-    pub(super) fn new(complex: &Complex, first_steiner: usize) -> Subsegments {
-        let ends: Vec<[VertexId; 2]> = complex.segments.iter().map(|s| s.ends).collect();
-        Subsegments {
-            of: ends
-                .iter()
-                .enumerate()
-                .map(|(i, &[a, b])| (key(a, b), i as u32))
-                .collect(),
-            chains: ends
-                .iter()
-                .map(|&[a, b]| vec![(0.0.into(), a), (1.0.into(), b)])
-                .collect(),
-            steiner: Vec::new(),
-            first_steiner,
+    pub(super) fn new(complex: &Complex, index: SegmentIndex, first_steiner: usize) -> Subsegments {
+        let chain = |ends: [VertexId; 2]| Chain {
             ends,
+            inner: [ends[1], ends[0]],
+            vertices: 2,
+        };
+        Subsegments {
+            index,
+            segments: complex.segments.iter().map(|s| chain(s.ends)).collect(),
+            around: Vec::new(),
+            places: Vec::new(),
+            first_steiner,
         }
     }
 
+    /// Finds segments of the input by their ends.
+    pub fn index(&self) -> &SegmentIndex {
+        &self.index
+    }
+
     /// The segment that ab is a subsegment of, as an index in [`Complex::segments`].
+    #[inline]
     pub fn segment_of(&self, a: VertexId, b: VertexId) -> Option<u32> {
-        self.of.get(&key(a, b)).copied()
+        let [low, high] = key(a, b);
+        match high.index().checked_sub(self.first_steiner) {
+            Some(i) => {
+                let is_next = self.around.get(i)?.contains(&low);
+                is_next.then(|| self.place(i).0)
+            }
+            None => {
+                let s = self.index.find(low, high)?;
+                (self.segments[s as usize].vertices == 2).then_some(s)
+            }
+        }
+    }
+
+    /// The segment and the parameter of the Steiner point with index i, which is on a segment.
+    fn place(&self, i: usize) -> (u32, Parameter) {
+        self.places[i].expect(ON_SEGMENT)
     }
 
     /// The segment that a Steiner point lies on; `None` for vertices of the input and for Steiner points on polygons.
+    #[inline]
     pub fn segment_of_steiner(&self, v: VertexId) -> Option<u32> {
         let i = v.index().checked_sub(self.first_steiner)?;
-        let place = self.steiner.get(i).copied().flatten();
+        let place = self.places.get(i).copied().flatten();
         place.map(|(s, _)| s)
     }
 
     /// Whether a and b are vertices of one segment of the input.
     pub fn share_segment(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> bool {
         let is_on = |s: u32, v: VertexId| {
-            self.ends[s as usize].contains(&v) || self.segment_of_steiner(v) == Some(s)
+            self.ends(s).contains(&v) || self.segment_of_steiner(v) == Some(s)
         };
-        let place = |v: VertexId| self.segment_of_steiner(v);
-        match place(a).or(place(b)) {
+        let segment = |v: VertexId| self.segment_of_steiner(v);
+        match segment(a).or(segment(b)) {
             Some(s) => is_on(s, a) && is_on(s, b),
             None => index.find(a, b).is_some(),
         }
@@ -67,32 +99,47 @@ impl Subsegments {
     /// The ends of the segment that a Steiner point lies on and its parameter there; `None` for other vertices.
     pub fn place_of_steiner(&self, v: VertexId) -> Option<([VertexId; 2], Parameter)> {
         let i = v.index().checked_sub(self.first_steiner)?;
-        let (s, t) = self.steiner.get(i).copied().flatten()?;
-        Some((self.ends[s as usize], t))
+        let (s, t) = self.places.get(i).copied().flatten()?;
+        Some((self.ends(s), t))
     }
 
     /// The vertices of segment `s` from its first end to its second.
-    pub fn chain(&self, s: u32) -> impl DoubleEndedIterator<Item = VertexId> + '_ {
-        self.chains[s as usize].iter().map(|&(_, v)| v)
+    pub fn chain(&self, s: u32) -> impl Iterator<Item = VertexId> + '_ {
+        self.walk(s, 0)
+    }
+
+    /// The vertices of segment `s` from its end `from` to the other one.
+    fn walk(&self, s: u32, from: usize) -> impl Iterator<Item = VertexId> + '_ {
+        let Chain { ends, inner, .. } = self.segments[s as usize];
+        let last = ends[1 - from];
+        let mut next = Some(ends[from]);
+        std::iter::from_fn(move || {
+            let v = next?;
+            next = if v == last {
+                None
+            } else if v == ends[from] {
+                Some(inner[from])
+            } else {
+                Some(self.around[v.index() - self.first_steiner][1 - from])
+            };
+            Some(v)
+        })
     }
 
     /// The vertices of the segment ab of the input, from a to b; a and b alone if they are not the ends of one: then ab is
     /// an edge of a polygon that has been cut.
     pub fn chain_between(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> Vec<VertexId> {
-        let Some(s) = index.find(a, b) else {
+        let Some(s) = index.find(a, b).filter(|&s| self.vertices_on(s) > 2) else {
             return vec![a, b];
         };
-        let chain = self.chain(s);
-        if self.ends[s as usize][0] == a {
-            chain.collect()
-        } else {
-            chain.rev().collect()
-        }
+        let mut chain = Vec::with_capacity(self.vertices_on(s));
+        chain.extend(self.walk(s, usize::from(self.ends(s)[0] != a)));
+        chain
     }
 
     /// How many Steiner points there are.
     pub fn steiner_count(&self) -> usize {
-        self.steiner.len()
+        self.places.len()
     }
 
     /// How many Steiner points lie exactly on their segment.
@@ -103,16 +150,25 @@ impl Subsegments {
                 points.collinear([p, q, VertexId::new(self.first_steiner + i)])
             })
         };
-        self.steiner.iter().enumerate().filter(on_segment).count()
+        self.places.iter().enumerate().filter(on_segment).count()
     }
 
     /// The parameter of a vertex of segment s.
     pub(super) fn parameter(&self, s: u32, v: VertexId) -> Parameter {
         match v.index().checked_sub(self.first_steiner) {
-            Some(i) => self.steiner[i].expect(ON_SEGMENT).1,
-            None if v == self.ends[s as usize][0] => 0.0.into(),
+            Some(i) => self.place(i).1,
+            None if v == self.ends(s)[0] => 0.0.into(),
             None => 1.0.into(),
         }
+    }
+
+    /// The subsegment ab of segment s in the direction of the segment.
+    pub(super) fn directed(&self, s: u32, [a, b]: [VertexId; 2]) -> [VertexId; 2] {
+        let forward = match a.index().checked_sub(self.first_steiner) {
+            Some(i) => self.around[i][1] == b,
+            None => a == self.ends(s)[0],
+        };
+        if forward { [a, b] } else { [b, a] }
     }
 
     /// Divides the subsegment ab of segment s at v, which has the parameter t.
@@ -123,33 +179,44 @@ impl Subsegments {
         t: Parameter,
         v: VertexId,
     ) -> [[VertexId; 2]; 2] {
-        self.of.remove(&key(a, b));
-        self.of.insert(key(a, v), s);
-        self.of.insert(key(v, b), s);
-        debug_assert_eq!(v.index(), self.first_steiner + self.steiner.len());
-        self.steiner.push(Some((s, t)));
-        self.chains[s as usize].push((t, v));
+        debug_assert_eq!(v.index(), self.first_steiner + self.places.len());
+        let [p, q] = self.directed(s, [a, b]);
+        self.places.push(Some((s, t)));
+        self.around.push([p, q]);
+        self.link(s, p, 1, v);
+        self.link(s, q, 0, v);
+        self.segments[s as usize].vertices += 1;
         [[a, v], [v, b]]
+    }
+
+    /// Lets v be next to p on segment s, before (0) or after (1) it.
+    fn link(&mut self, s: u32, p: VertexId, side: usize, v: VertexId) {
+        match p.index().checked_sub(self.first_steiner) {
+            Some(i) => self.around[i][side] = v,
+            None => self.segments[s as usize].inner[1 - side] = v,
+        }
     }
 
     /// Notes that the next Steiner point lies on a polygon.
     pub(super) fn push_on_polygon(&mut self) {
-        self.steiner.push(None);
+        self.places.push(None);
+        self.around.push([VertexId::INFINITE; 2]);
     }
 
     /// The ends of segment s.
+    #[inline]
     pub(super) fn ends(&self, s: u32) -> [VertexId; 2] {
-        self.ends[s as usize]
+        self.segments[s as usize].ends
     }
 
     /// The ends of all segments.
-    pub(super) fn all_ends(&self) -> &[[VertexId; 2]] {
-        &self.ends
+    pub(super) fn all_ends(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+        self.segments.iter().map(|chain| chain.ends)
     }
 
     /// The number of vertices on segment s, its ends included.
     pub(super) fn vertices_on(&self, s: u32) -> usize {
-        self.chains[s as usize].len()
+        self.segments[s as usize].vertices as usize
     }
 
     /// The first Steiner point.
@@ -157,97 +224,179 @@ impl Subsegments {
         self.first_steiner
     }
 
-    /// The vertices before and after the Steiner point v on its segment; once the chains are in order.
+    /// The vertices before and after the Steiner point v on its segment.
     pub(super) fn around(&self, v: VertexId) -> [VertexId; 2] {
-        let i = self.position(v);
-        let (s, _) = self.steiner[v.index() - self.first_steiner].expect(ON_SEGMENT);
-        let chain = &self.chains[s as usize];
-        [chain[i - 1].1, chain[i + 1].1]
+        self.around[v.index() - self.first_steiner]
     }
 
-    /// Joins the two subsegments that meet in the Steiner point v; once the chains are in order.
+    /// Joins the two subsegments that meet in the Steiner point v.
     pub(super) fn join_at(&mut self, v: VertexId) {
-        let [a, b] = self.around(v);
-        let i = self.position(v);
-        let (s, _) = self.steiner[v.index() - self.first_steiner].expect(ON_SEGMENT);
-        self.chains[s as usize].remove(i);
-        self.of.remove(&key(a, v));
-        self.of.remove(&key(v, b));
-        self.of.insert(key(a, b), s);
+        let [p, q] = self.around(v);
+        let (s, _) = self.place(v.index() - self.first_steiner);
+        self.link(s, p, 1, q);
+        self.link(s, q, 0, p);
+        self.segments[s as usize].vertices -= 1;
     }
 
     /// Adds the Steiner points, all of which are on segments, to a store that has the other vertices only.
-    pub(super) fn place<P: PointStore>(&self, points: &mut P) {
-        for place in &self.steiner {
+    pub(super) fn push_all<P: PointStore>(&self, points: &mut P) {
+        for place in &self.places {
             let (s, t) = place.expect(ON_SEGMENT);
             let [p, q] = self.ends(s);
             points.push_on_segment(p, q, t);
         }
     }
 
-    fn position(&self, v: VertexId) -> usize {
-        let (s, t) = self.steiner[v.index() - self.first_steiner].expect(ON_SEGMENT);
-        let chain = &self.chains[s as usize];
-        let found = chain.binary_search_by(|x| Parameter::order(&x.0, &t));
-        found.expect("a Steiner point is on its segment")
-    }
-
     /// Numbers the Steiner points anew, without those that are gone. Returns the new ids by old place;
     /// where a point is gone, none.
     pub(super) fn compact(&mut self, gone: &[bool]) -> Vec<Option<VertexId>> {
-        let mut kept = Vec::new();
-        let mut ids: Vec<Option<VertexId>> = Vec::new();
-        for (i, &place) in self.steiner.iter().enumerate() {
-            ids.push((!gone[i]).then(|| VertexId::new(self.first_steiner + kept.len())));
-            if !gone[i] {
-                kept.push(place);
+        let first = self.first_steiner;
+        let mut kept = 0;
+        let mut ids: Vec<Option<VertexId>> = Vec::with_capacity(gone.len());
+        for (i, &gone) in gone.iter().enumerate() {
+            ids.push((!gone).then(|| VertexId::new(first + kept)));
+            if !gone {
+                self.places[kept] = self.places[i];
+                self.around[kept] = self.around[i];
+                kept += 1;
             }
         }
-        let first = self.first_steiner;
-        let renamed = |v: VertexId| match v.index().checked_sub(first) {
-            Some(i) => ids[i].expect("chains hold what is kept"),
-            None => v,
-        };
-        for (_, v) in self.chains.iter_mut().flatten() {
-            *v = renamed(*v);
+        self.places.truncate(kept);
+        self.around.truncate(kept);
+        let chains = self.segments.iter_mut().map(|chain| &mut chain.inner);
+        for v in chains.chain(&mut self.around).flatten() {
+            if let Some(i) = v.index().checked_sub(first) {
+                *v = ids[i].expect("links name what is kept");
+            }
         }
-        let of = self
-            .of
-            .iter()
-            .map(|(&[a, b], &s)| (key(renamed(a), renamed(b)), s));
-        self.of = of.collect();
-        self.steiner = kept;
         ids
     }
-
-    /// Brings the chains into order, once all Steiner points are there.
-    pub(super) fn finish(&mut self) {
-        for chain in &mut self.chains {
-            chain.sort_unstable_by(|x, y| Parameter::order(&x.0, &y.0));
-        }
-    }
 }
 
-/// Finds a segment of the input by its ends.
-#[derive(Clone, Debug)]
-pub struct SegmentIndex(FxHashMap<[VertexId; 2], u32>);
+/// Finds a segment of the input by its ends. Cheap to clone.
+#[derive(Clone, Debug, Default)]
+pub struct SegmentIndex(Arc<Pairs>);
+
+/// For each vertex the segments of which it is the end with the smaller id.
+#[derive(Debug, Default)]
+struct Pairs {
+    /// Where those of vertex i begin in `list`; one more at the end.
+    starts: Vec<u32>,
+    /// The other end and the segment, by the other end.
+    list: Vec<(VertexId, u32)>,
+}
+
+/// From how many segments at a vertex on they are searched by bisection.
+const MANY: usize = 16;
 
 impl SegmentIndex {
-    /// The index of a complex.
+    /// The index of a complex. Time linear in its segments and vertices, but for the sorting at vertices of many.
     pub fn new(complex: &Complex) -> SegmentIndex {
-        let segments = complex.segments.iter().enumerate();
-        SegmentIndex(
-            segments
-                .map(|(i, s)| (key(s.ends[0], s.ends[1]), i as u32))
-                .collect(),
-        )
+        let ends = || complex.segments.iter().map(|s| key(s.ends[0], s.ends[1]));
+        let n = ends().map(|[low, _]| low.index() + 1).max().unwrap_or(0);
+        // First the numbers of segments, then where the next one goes.
+        let mut starts = vec![0; n + 1];
+        ends().for_each(|[low, _]| starts[low.index() + 1] += 1);
+        for i in 0..n {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut list = vec![(VertexId::INFINITE, 0); complex.segments.len()];
+        for (s, [low, high]) in ends().enumerate() {
+            list[next[low.index()] as usize] = (high, s as u32);
+            next[low.index()] += 1;
+        }
+        for range in starts.windows(2) {
+            list[range[0] as usize..range[1] as usize].sort_unstable();
+        }
+        SegmentIndex(Arc::new(Pairs { starts, list }))
     }
 
+    #[inline]
     pub(super) fn find(&self, a: VertexId, b: VertexId) -> Option<u32> {
-        self.0.get(&key(a, b)).copied()
+        let [low, high] = key(a, b);
+        let Pairs { starts, list } = &*self.0;
+        let (&start, &end) = (starts.get(low.index())?, starts.get(low.index() + 1)?);
+        let at_low = &list[start as usize..end as usize];
+        let found = if at_low.len() < MANY {
+            at_low.iter().position(|(v, _)| *v == high)
+        } else {
+            at_low.binary_search_by_key(&high, |(v, _)| *v).ok()
+        };
+        found.map(|i| at_low[i].1)
     }
 }
 
+#[inline]
 pub(super) fn key(a: VertexId, b: VertexId) -> [VertexId; 2] {
     if a < b { [a, b] } else { [b, a] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plc::Segment;
+    use rustc_hash::FxHashMap;
+
+    /// The subsegments after many divisions and joins are those that a list of each segment's vertices tells.
+    #[test]
+    fn links_agree_with_lists() {
+        let ends = [[0, 1], [2, 1], [5, 3], [0, 4], [4, 2]].map(|e| e.map(VertexId::new));
+        let spokes = (7..40).map(|i| [VertexId::new(i), VertexId::new(6)]);
+        let segments = ends
+            .into_iter()
+            .chain(spokes)
+            .map(|ends| Segment { ends, marker: 0 });
+        let complex = Complex {
+            segments: segments.collect(),
+            ..Complex::default()
+        };
+        let mut subsegments = Subsegments::new(&complex, SegmentIndex::new(&complex), 40);
+        let mut lists: Vec<Vec<VertexId>> =
+            complex.segments.iter().map(|s| s.ends.into()).collect();
+        let check = |subsegments: &Subsegments, lists: &[Vec<VertexId>]| {
+            let mut expected = FxHashMap::default();
+            for (s, list) in lists.iter().enumerate() {
+                assert_eq!(&subsegments.chain(s as u32).collect::<Vec<_>>(), list);
+                let [a, b] = complex.segments[s].ends;
+                let backwards: Vec<VertexId> = list.iter().rev().copied().collect();
+                assert_eq!(
+                    subsegments.chain_between(subsegments.index(), b, a),
+                    backwards
+                );
+                assert_eq!(subsegments.chain_between(subsegments.index(), a, b), *list);
+                expected.extend(list.windows(2).map(|w| (key(w[0], w[1]), s as u32)));
+            }
+            let n = 40 + subsegments.steiner_count();
+            for [a, b] in (0..n).flat_map(|a| (0..n).map(move |b| [a, b].map(VertexId::new))) {
+                let s = expected.get(&key(a, b)).copied();
+                assert_eq!(subsegments.segment_of(a, b), s);
+            }
+        };
+        for i in 0..30 {
+            let s = i * i % 7;
+            let at = 1 + i * 5 % (lists[s].len() - 1);
+            let (p, q) = (lists[s][at - 1], lists[s][at]);
+            let [low, high] = [p, q].map(|v| subsegments.parameter(s as u32, v));
+            let t = Parameter::middle(low, high).expect("far apart");
+            let v = VertexId::new(40 + i);
+            let ab = if i % 2 == 0 { [p, q] } else { [q, p] };
+            subsegments.split(s as u32, ab, t, v);
+            lists[s].insert(at, v);
+        }
+        check(&subsegments, &lists);
+        let mut gone = [false; 30];
+        for i in [29, 3, 4, 12] {
+            let v = VertexId::new(40 + i);
+            subsegments.join_at(v);
+            lists.iter_mut().for_each(|list| list.retain(|&w| w != v));
+            gone[i] = true;
+        }
+        let ids = subsegments.compact(&gone);
+        for v in lists.iter_mut().flatten().filter(|v| v.index() >= 40) {
+            *v = ids[v.index() - 40].expect("it is left");
+        }
+        assert_eq!(subsegments.steiner_count(), 26);
+        check(&subsegments, &lists);
+    }
 }

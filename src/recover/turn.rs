@@ -2,7 +2,7 @@
 //! and all other edges stay.
 //!
 //! An edge is found by turning around it, once: from the tetrahedron with the smallest id, and not at all if the set ends
-//! next to that. Time linear in the set, but for the turns, which mostly end after a step or two.
+//! next to that, or if nobody asks for it. Time linear in the set, but for the turns, which mostly end after a step or two.
 
 use crate::mesh::{TetId, TetMesh, VertexId};
 
@@ -16,26 +16,31 @@ const EDGES: [[usize; 4]; 6] = [
     [2, 3, 0, 1],
 ];
 
-/// Calls `visit` for each finite edge all of whose tetrahedra are in a set, once, in an order that depends on the order of
-/// the set. An edge is passed over where `narrow`, called with what it gave for the tetrahedron before (`start` for the
+/// Calls `visit` for each finite edge that is `wanted` and all of whose tetrahedra are in a set, once, in an order that
+/// depends on the order of the set. An edge is passed over where `narrow`, called with what it gave for the tetrahedron before (`start` for the
 /// first), gives `None` for one of its tetrahedra.
 pub(super) fn inner_edges<S: Copy>(
     mesh: &TetMesh,
     set: &[TetId],
     is_in: impl Fn(TetId) -> bool,
+    wanted: impl Fn([VertexId; 2]) -> bool,
     start: S,
     narrow: impl Fn(S, TetId) -> Option<S>,
     mut visit: impl FnMut([VertexId; 2], S),
 ) {
     for &t in set {
         let vertices = mesh.vertices(t);
-        let goes_on = [0, 1, 2, 3].map(|slot| {
+        let mut goes_on = [false; 4];
+        for (slot, goes_on) in goes_on.iter_mut().enumerate() {
             let n = mesh.neighbor(t.corner(slot));
-            n > t && is_in(n)
-        });
+            *goes_on = n > t && is_in(n);
+        }
         for [i, j, k, l] in EDGES {
+            if !goes_on[k] || !goes_on[l] {
+                continue;
+            }
             let edge = [vertices[i], vertices[j]];
-            if !goes_on[k] || !goes_on[l] || edge[0].is_infinite() || edge[1].is_infinite() {
+            if edge[0].is_infinite() || edge[1].is_infinite() || !wanted(edge) {
                 continue;
             }
             let mut state = narrow(start, t);
@@ -92,6 +97,7 @@ mod tests {
                 &delaunay.mesh,
                 zone,
                 |t| zone.contains(&t),
+                |_| true,
                 (),
                 |(), _| Some(()),
                 |[a, b], ()| assert!(inner.insert([a.min(b), a.max(b)]), "found once"),

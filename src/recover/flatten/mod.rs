@@ -141,7 +141,7 @@ pub fn flatten<P: PointStore>(
     let mut refined = FlatteningCounts::default();
     while state.has_bad() {
         let positions: Vec<Request> = requests.iter().map(|r| r.1).collect();
-        let added = add_steiner_points(&positions, index, points, delaunay, subsegments, incidence);
+        let added = add_steiner_points(&positions, points, delaunay, subsegments, incidence);
         let added = added.ok().filter(|added| {
             let progress = added.vertices.iter().any(Option::is_some);
             progress && points.len() <= most && refined.rounds < MOST_ROUNDS

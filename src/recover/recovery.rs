@@ -1,0 +1,325 @@
+//! The recovery of missing subsegments, one after the other, with one way of placing Steiner points.
+//!
+//! Each missing subsegment is split, the longest first: then neighbours that are about as long are split alike, and their
+//! points stay level with each other. An insertion can destroy other subsegments, so those in its conflict zone are looked
+//! at again, and no others: the queue holds the missing subsegments, each once.
+
+use super::reach::{Reaches, Span};
+use super::scout::{Crossing, Scouted, scout};
+use super::scratch::Stamps;
+use super::segments::Request;
+use super::split::{self, Reference, Subsegment, split_parameter};
+use super::subsegments::{Subsegments, key};
+use super::turn::inner_edges;
+use crate::delaunay::Delaunay;
+use crate::error::{Failure, GaveUp};
+use crate::mesh::{Incidence, TetId, VertexId};
+use crate::predicate::{Parameter, PointStore};
+use rustc_hash::FxHashSet;
+use std::collections::BinaryHeap;
+
+/// No valid segment of ordinary input needs so many vertices. Edges that nearly overlap, an ulp apart all along, would
+/// need one every few ulps.
+pub(super) const MOST_VERTICES_PER_SEGMENT: usize = 1 << 14;
+
+/// The search for harmless places is given up if it has more points than the rules had needed so far, by this part of what
+/// these need in the end. A few per cent are often made up for later.
+const TOO_FAR_BEHIND: usize = 24;
+
+/// A tetrahedralization with all segments.
+pub(super) struct Recovered {
+    pub(super) delaunay: Delaunay,
+    pub(super) incidence: Incidence,
+    pub(super) subsegments: Subsegments,
+}
+
+/// How far recovery was when it came to subsegments that were shorter than all before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Level {
+    /// The bits of the length of the first one.
+    length: u64,
+    /// The number of Steiner points.
+    count: usize,
+}
+
+/// Where Steiner points are put.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Placement {
+    /// Where the rules of [`super::split`] say.
+    ByRules,
+    /// Where the fewest other subsegments are destroyed.
+    Harmless {
+        /// More Steiner points than this are of no use: there is a result with so many.
+        most: usize,
+        /// How many more tetrahedra may be looked at in the search for places.
+        effort: usize,
+    },
+}
+
+/// What is kept while segments are recovered.
+pub(super) struct SegmentRecovery<'a, P> {
+    pub(super) points: &'a mut P,
+    pub(super) delaunay: Delaunay,
+    pub(super) incidence: Incidence,
+    pub(super) subsegments: Subsegments,
+    pub(super) placement: Placement,
+    /// Subsegments to look at, by the bits of their length, which are in the order of the lengths.
+    missing: BinaryHeap<(u64, [VertexId; 2])>,
+    /// Memory used again.
+    pub(super) reaches: Reaches,
+    pub(super) harmful: Vec<Span>,
+    crossing: Crossing,
+    lost: Vec<[VertexId; 2]>,
+    zone: Stamps,
+    /// The vertices whose stars have changed, if that is of interest.
+    pub(super) touched: Option<FxHashSet<VertexId>>,
+}
+
+impl<'a, P: PointStore> SegmentRecovery<'a, P> {
+    pub(super) fn new(
+        points: &'a mut P,
+        start: Recovered,
+        placement: Placement,
+    ) -> SegmentRecovery<'a, P> {
+        SegmentRecovery {
+            points,
+            delaunay: start.delaunay,
+            incidence: start.incidence,
+            subsegments: start.subsegments,
+            placement,
+            missing: BinaryHeap::new(),
+            reaches: Reaches::default(),
+            harmful: Vec::new(),
+            crossing: Crossing::default(),
+            lost: Vec::new(),
+            zone: Stamps::default(),
+            touched: None,
+        }
+    }
+
+    /// Splits the given subsegments and others, the longest first, until none is missing.
+    pub(super) fn run(
+        mut self,
+        missing: &[[VertexId; 2]],
+        levels: &mut Vec<Level>,
+    ) -> Result<Recovered, Failure> {
+        missing.iter().for_each(|&[a, b]| self.enqueue(a, b));
+        self.recover_missing(levels)?;
+        Ok(self.finish())
+    }
+
+    pub(super) fn finish(self) -> Recovered {
+        Recovered {
+            delaunay: self.delaunay,
+            incidence: self.incidence,
+            subsegments: self.subsegments,
+        }
+    }
+
+    /// By the rules, notes how far it is when it comes to shorter subsegments. Otherwise gives up if it is too far behind
+    /// that, or not ahead of it once it has a quarter of the points that would make it useless.
+    pub(super) fn recover_missing(&mut self, levels: &mut Vec<Level>) -> Result<(), Failure> {
+        let mut shortest = u64::MAX;
+        let mut next = 0;
+        while let Some((length, [a, b])) = self.missing.pop() {
+            if length < shortest {
+                shortest = length;
+                let count = self.subsegments.steiner_count();
+                match self.placement {
+                    Placement::ByRules => levels.push(Level { length, count }),
+                    Placement::Harmless { most, .. } => {
+                        while levels.get(next).is_some_and(|level| level.length > length) {
+                            next += 1;
+                        }
+                        let by_rules = levels.get(next).map_or(usize::MAX, |level| level.count);
+                        if count >= by_rules && count > most / 4
+                            || count.saturating_sub(by_rules) > most / TOO_FAR_BEHIND
+                        {
+                            let segment = [a, b];
+                            return Err(GaveUp::TooManySteinerPoints { segment }.into());
+                        }
+                    }
+                }
+            }
+            self.recover(a, b)?;
+        }
+        Ok(())
+    }
+
+    /// Does what is requested, if it can be done; recovers nothing yet.
+    pub(super) fn add(&mut self, request: Request) -> Result<Option<VertexId>, Failure> {
+        match request {
+            Request::Point(p) => {
+                let v = self.points.push(p);
+                if !self.insert(v) {
+                    self.points.truncate(v.index());
+                    return Ok(None);
+                }
+                self.subsegments.push_on_polygon();
+                Ok(Some(v))
+            }
+            Request::Split([a, b]) => {
+                let Some(s) = self.subsegments.segment_of(a, b) else {
+                    return Ok(None);
+                };
+                self.crossing.clear();
+                let t = self.place(s, [a, b])?;
+                self.split(s, [a, b], t).map(Some)
+            }
+        }
+    }
+
+    fn enqueue(&mut self, a: VertexId, b: VertexId) {
+        let (p, q) = (self.points.rounded(a), self.points.rounded(b));
+        let length = split::distance(p, q);
+        self.missing.push((length.to_bits(), key(a, b)));
+    }
+
+    /// Looks for the edge ab; splits it if it is missing. A subsegment that is no longer one is passed over.
+    fn recover(&mut self, a: VertexId, b: VertexId) -> Result<(), Failure> {
+        let Some(s) = self.subsegments.segment_of(a, b) else {
+            return Ok(());
+        };
+        let start = self
+            .incidence
+            .tet_at(a)
+            .expect("every vertex is in the mesh");
+        let mesh = &self.delaunay.mesh;
+        match scout(self.points, mesh, start, a, b) {
+            Scouted::Edge(_) => Ok(()),
+            Scouted::Vertex(v) => Err(self.vertex_on_segment(s, v)),
+            Scouted::Crosses(first) => {
+                self.crossing.follow(self.points, mesh, first, a, b);
+                let t = self.place(s, [a, b])?;
+                self.split(s, [a, b], t).map(|_| ())
+            }
+        }
+    }
+
+    /// The encroaching vertex that sees ab under the largest angle, among those of the crossed tetrahedra.
+    fn reference(&self, s: u32, [a, b]: [VertexId; 2]) -> Option<Reference> {
+        let (pa, pb) = (self.points.rounded(a), self.points.rounded(b));
+        let vertices = self.crossing.vertices.iter();
+        let seen = vertices
+            .filter(|&&v| v != a && v != b)
+            .map(|&v| (split::sight(self.points.rounded(v), pa, pb), v));
+        let (_, v) = seen.min_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)))?;
+        let shares = self.shared_end(s, v);
+        Some(Reference {
+            point: self.points.rounded(v),
+            shares,
+        })
+    }
+
+    /// Which end of segment s the vertex v has in common with it: v is on, or an end of, another segment from there.
+    fn shared_end(&self, s: u32, v: VertexId) -> Option<usize> {
+        let ends = self.subsegments.ends(s);
+        match self.subsegments.segment_of_steiner(v) {
+            Some(other) => {
+                let others = self.subsegments.ends(other);
+                (0..2).find(|&i| others.contains(&ends[i]))
+            }
+            None => (0..2).find(|&i| self.subsegments.index().find(v, ends[i]).is_some()),
+        }
+    }
+
+    /// Where to split the subsegment ab of segment s, which is there, or crosses what has been found before.
+    fn place(&mut self, s: u32, [a, b]: [VertexId; 2]) -> Result<Parameter, Failure> {
+        let ends = self.subsegments.ends(s);
+        let count = self.subsegments.steiner_count();
+        let vertices = self.subsegments.vertices_on(s);
+        let useless = match self.placement {
+            Placement::ByRules => false,
+            Placement::Harmless { most, effort } => count >= most || effort == 0,
+        };
+        if useless || vertices >= MOST_VERTICES_PER_SEGMENT {
+            let segment = ends;
+            return Err(GaveUp::TooManySteinerPoints { segment }.into());
+        }
+        let directed = self.subsegments.directed(s, [a, b]);
+        let range = directed.map(|v| self.subsegments.parameter(s, v));
+        let subsegment = Subsegment {
+            ends: ends.map(|v| self.points.rounded(v)),
+            range: range.map(|t| t.value),
+            vertices,
+        };
+        let reference = self.reference(s, [a, b]);
+        let Some(t) = split_parameter(&subsegment, reference) else {
+            let middle = Parameter::middle(range[0], range[1]);
+            return middle.ok_or_else(|| self.too_short(ends));
+        };
+        Ok(match self.placement {
+            Placement::Harmless { .. } => {
+                let crossing = std::mem::take(&mut self.crossing);
+                let place = self.less_harmful(directed, &subsegment, t, &crossing.tets);
+                self.crossing = crossing;
+                place.into()
+            }
+            Placement::ByRules => t.into(),
+        })
+    }
+
+    /// Splits the subsegment ab of segment s at the parameter t.
+    fn split(&mut self, s: u32, [a, b]: [VertexId; 2], t: Parameter) -> Result<VertexId, Failure> {
+        let ends = self.subsegments.ends(s);
+        let v = self.points.push_on_segment(ends[0], ends[1], t);
+        let [from, to] = [a, b].map(|v| self.subsegments.parameter(s, v).value);
+        let near = self.crossing.at((t.value - from) / (to - from));
+        if let Some(near) = near.or_else(|| self.incidence.tet_at(a)) {
+            self.delaunay.start_at(near);
+        }
+        if !self.insert(v) {
+            return Err(self.too_short(ends));
+        }
+        for [a, b] in self.subsegments.split(s, [a, b], t, v) {
+            self.enqueue(a, b);
+        }
+        Ok(v)
+    }
+
+    /// Inserts v, unless there is a vertex where it is.
+    fn insert(&mut self, v: VertexId) -> bool {
+        let start = self.delaunay.locate(self.points, v);
+        let corners = self.delaunay.mesh.vertices(start);
+        let mut finite = corners.iter().filter(|w| !w.is_infinite());
+        if finite.any(|&w| self.points.coincide(v, w)) {
+            return false;
+        }
+        self.delaunay.find_conflicts(self.points, v, start);
+        self.queue_lost();
+        if let Some(touched) = &mut self.touched {
+            let (mesh, zone) = (&self.delaunay.mesh, self.delaunay.conflicts());
+            touched.extend(zone.iter().flat_map(|&t| mesh.vertices(t)));
+            touched.insert(v);
+        }
+        self.delaunay.replace_conflicts(v);
+        let created = self.delaunay.created();
+        self.incidence.update(&self.delaunay.mesh, created);
+        self.reaches.forget(created);
+        true
+    }
+
+    /// The subsegments among the edges inside the conflict zone are about to vanish. Others stay, and what is missing stays
+    /// missing.
+    fn queue_lost(&mut self) {
+        let mut lost = std::mem::take(&mut self.lost);
+        let (mesh, conflicts) = (&self.delaunay.mesh, self.delaunay.conflicts());
+        self.zone.clear(mesh.capacity());
+        for t in conflicts {
+            self.zone.insert(t.index());
+        }
+        inner_edges(
+            mesh,
+            conflicts,
+            |t: TetId| self.zone.contains(t.index()),
+            |[a, b]| self.subsegments.segment_of(a, b).is_some(),
+            (),
+            |(), _| Some(()),
+            |edge, ()| lost.push(edge),
+        );
+        for [a, b] in lost.drain(..) {
+            self.enqueue(a, b);
+        }
+        self.lost = lost;
+    }
+}
