@@ -4,10 +4,12 @@ mod export;
 mod flip;
 mod ids;
 mod incidence;
+mod least;
 mod topology;
 
 pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;
+pub(crate) use least::{Groups, SimplexIndex, sort_by_least};
 pub use topology::{FACET, NEXT, TetMesh, TopologyError};

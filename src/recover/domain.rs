@@ -3,10 +3,8 @@
 //! The subpolygons divide the tetrahedra into components. Those connected to the ghosts are outside; those that hold a
 //! hole point are holes; the rest is the domain. A region point gives its attribute to its component.
 
-use super::cavity::face;
-use super::polygons::Subpolygons;
 use crate::error::InvalidPlc;
-use crate::mesh::{Incidence, TetId, TetMesh};
+use crate::mesh::{Incidence, SimplexIndex, TetId, TetMesh};
 use crate::plc::Plc;
 use crate::predicate::PointStore;
 
@@ -19,20 +17,20 @@ pub struct DomainMarks {
     pub region: Vec<f64>,
 }
 
-/// Divides the mesh. With `keep_hull` everything in the convex hull is kept. Linear time.
+/// Divides the mesh at `walls`, the subpolygons. With `keep_hull` everything in the convex hull is kept. Linear time.
 ///
 /// # Errors
 /// If a hole point or region point lies on a facet, or two region points disagree on one region.
-pub fn mark_domain<P: PointStore>(
+pub(crate) fn mark_domain<P: PointStore>(
     plc: &Plc,
     points: &mut P,
     mesh: &TetMesh,
-    subpolygons: &Subpolygons,
+    walls: &SimplexIndex<2>,
     keep_hull: bool,
 ) -> Result<DomainMarks, InvalidPlc> {
     let mut flood = Flood {
         mesh,
-        subpolygons,
+        walls,
         component: vec![u32::MAX; mesh.capacity()],
     };
     let mut kept_component = vec![keep_hull];
@@ -46,7 +44,7 @@ pub fn mark_domain<P: PointStore>(
     }
     let component = flood.component;
     let mut find = |kind, index, point| {
-        locate(points, mesh, subpolygons, point)
+        locate(points, mesh, walls, point)
             .map_err(|OnPolygon| InvalidPlc::PointOnPolygon { kind, index })
     };
     let holes: &[[f64; 3]] = if keep_hull { &[] } else { &plc.holes };
@@ -93,7 +91,7 @@ pub fn mark_domain<P: PointStore>(
 
 struct Flood<'a> {
     mesh: &'a TetMesh,
-    subpolygons: &'a Subpolygons,
+    walls: &'a SimplexIndex<2>,
     component: Vec<u32>,
 }
 
@@ -107,7 +105,7 @@ impl Flood<'_> {
                 let c = t.corner(slot);
                 let n = self.mesh.neighbor(c);
                 if self.component[n.index()] == u32::MAX
-                    && !self.subpolygons.contains_key(&face(self.mesh.facet(c)))
+                    && self.walls.triangle(self.mesh.facet(c)).is_none()
                 {
                     self.component[n.index()] = id;
                     stack.push(n);
@@ -125,7 +123,7 @@ struct OnPolygon;
 fn locate<P: PointStore>(
     points: &mut P,
     mesh: &TetMesh,
-    subpolygons: &Subpolygons,
+    walls: &SimplexIndex<2>,
     point: [f64; 3],
 ) -> Result<Option<TetId>, OnPolygon> {
     let n = points.len();
@@ -154,9 +152,7 @@ fn locate<P: PointStore>(
     let found = found.or_else(|| mesh.finite().find(|&t| outward(t).is_none()));
     let on_polygon = found.is_some_and(|t| {
         let on_facet = sides(t).map(|s| s.is_zero());
-        (0..4).any(|slot| {
-            on_facet[slot] && subpolygons.contains_key(&face(mesh.facet(t.corner(slot))))
-        })
+        (0..4).any(|slot| on_facet[slot] && walls.triangle(mesh.facet(t.corner(slot))).is_some())
     });
     points.truncate(n);
     if on_polygon {

@@ -1,7 +1,7 @@
 //! How segments are divided into subsegments by their Steiner points.
 
 use crate::mesh::VertexId;
-use crate::plc::Complex;
+use crate::plc::{Complex, Polygon};
 use crate::predicate::{Parameter, PointStore};
 use rustc_hash::FxHashMap;
 
@@ -76,17 +76,26 @@ impl Subsegments {
         self.chains[s as usize].iter().map(|&(_, v)| v)
     }
 
-    /// The vertices of the segment ab of the input, from a to b; a and b alone if they are not the ends of one: then ab is
-    /// an edge of a polygon that has been cut.
-    pub fn chain_between(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> Vec<VertexId> {
-        let Some(s) = index.find(a, b) else {
-            return vec![a, b];
-        };
-        let chain = self.chain(s);
-        if self.ends[s as usize][0] == a {
-            chain.collect()
-        } else {
-            chain.rev().collect()
+    /// Appends the directed subsegments that bound a polygon, edge by edge. An edge that is no segment of the input is there
+    /// itself: it is an edge of a polygon that has been cut.
+    pub(super) fn append_boundary(
+        &self,
+        index: &SegmentIndex,
+        polygon: &Polygon,
+        boundary: &mut Vec<[VertexId; 2]>,
+    ) {
+        for &[a, b] in &polygon.edges {
+            let Some(s) = index.find(a, b) else {
+                boundary.push([a, b]);
+                continue;
+            };
+            let chain = &self.chains[s as usize];
+            let steps = chain.windows(2).map(|w| [w[0].1, w[1].1]);
+            if self.ends[s as usize][0] == a {
+                boundary.extend(steps);
+            } else {
+                boundary.extend(steps.rev().map(|[p, q]| [q, p]));
+            }
         }
     }
 
