@@ -168,12 +168,22 @@ impl Cdt<DoublePoints> {
 
 /// The even permutation of a tetrahedron that has its smallest vertex first and its second smallest second.
 fn canonical(mut v: [VertexId; 4]) -> [VertexId; 4] {
-    let least = (0..4).min_by_key(|&i| v[i]).expect("four vertices");
+    let mut least = 0;
+    for i in 1..4 {
+        if v[i] < v[least] {
+            least = i;
+        }
+    }
     // A double transposition brings it to the front and keeps the orientation.
     v = [v[least], v[least ^ 1], v[least ^ 2], v[least ^ 3]];
-    let second = (1..4).min_by_key(|&i| v[i]).expect("three vertices");
-    v[1..].rotate_left(second - 1);
-    v
+    let [a, b, c, d] = v;
+    if b < c && b < d {
+        v
+    } else if c < d {
+        [a, c, d, b]
+    } else {
+        [a, d, b, c]
+    }
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ use crate::recover::polygons::{
 };
 use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 use crate::report::{Phase, Report};
+use std::sync::Arc;
 
 /// What the user chooses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -58,7 +59,7 @@ pub struct Cdt<P = DoublePoints> {
     pub points: P,
     /// The tetrahedra, ghosts included.
     pub mesh: TetMesh,
-    complex: Complex,
+    complex: Arc<Complex>,
     incidence: Incidence,
     subsegments: Subsegments,
     index: SegmentIndex,
@@ -102,7 +103,7 @@ impl Cdt<DoublePoints> {
             if options.steiner == Steiner::Exact {
                 report.triangulated_polygons = complex.triangulate_not_flat(plc)?;
             }
-            Ok::<_, PlcError>(complex)
+            Ok::<_, PlcError>(Arc::new(complex))
         })?;
         report.segments = complex.segments.len();
         report.polygons = complex.polygons.len();

@@ -2,8 +2,9 @@
 //! the projected coordinates are input doubles and no rounding happens at all.
 
 use crate::mesh::VertexId;
-use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
-use crate::predicate::formula;
+use crate::number::{Approx, Dyadic, Exact, Number, Sign};
+use crate::predicate::coordinates;
+pub(crate) use crate::predicate::coordinates::orient3d;
 
 /// A point of the projection plane.
 pub(crate) type Point = [f64; 2];
@@ -21,20 +22,8 @@ impl Projection {
     /// Component k of (b−a) × (c−a) is the determinant of the triangle projected along axis k onto the axes
     /// (k+1, k+2) mod 3, which is what [`Projection::point`] keeps.
     pub fn of(triangle: [[f64; 3]; 3]) -> Option<(Projection, Sign)> {
-        let [a, b, c] = triangle.map(Vec3::<Dyadic>::from_f64);
-        let normal = b.sub(&a).cross(&c.sub(&a)).0;
-        let size = |k: usize| match normal[k].exact_sign() {
-            Sign::Negative => normal[k].clone().negated(),
-            _ => normal[k].clone(),
-        };
-        let mut axis = 0;
-        for k in [1, 2] {
-            if (size(k) - &size(axis)).exact_sign().is_positive() {
-                axis = k;
-            }
-        }
-        let sign = normal[axis].exact_sign();
-        (!sign.is_zero()).then_some((Projection { axis }, sign))
+        let (axis, sign) = coordinates::normal_axis(triangle)?;
+        Some((Projection { axis }, sign))
     }
 
     /// The two coordinates that are kept.
@@ -73,31 +62,9 @@ pub(crate) fn collinear(points: [[f64; 3]; 3]) -> bool {
 }
 
 /// The sign of det[b−a, c−a]: positive iff abc turns counterclockwise.
+#[inline]
 pub(crate) fn orient2d(a: Point, b: Point, c: Point) -> Sign {
-    fn value<N: Number>(points: [Point; 3]) -> N {
-        let [a, b, c] = points.map(|p| p.map(N::from_f64));
-        let minus = |p: &[N; 2], k: usize| p[k].clone() - &a[k];
-        minus(&b, 0) * &minus(&c, 1) - &(minus(&b, 1) * &minus(&c, 0))
-    }
-    filtered(value::<Approx>([a, b, c]), || {
-        // Points on a line across a coordinate axis are common in planes across one, and need no arithmetic.
-        if (0..2).any(|k| a[k] == b[k] && b[k] == c[k]) {
-            return Dyadic::ZERO;
-        }
-        value([a, b, c])
-    })
-}
-
-/// The sign of det[b−a, c−a, d−a].
-pub(crate) fn orient3d(points: [[f64; 3]; 4]) -> Sign {
-    // The commonest coplanar points, without arithmetic: all in one plane across a coordinate axis.
-    if (0..3).any(|k| points.iter().all(|p| p[k] == points[0][k])) {
-        return Sign::Zero;
-    }
-    let approx = points.map(Vec3::<Approx>::from_f64);
-    filtered(formula::orient3d(approx.each_ref()), || {
-        formula::orient3d(points.map(Vec3::<Dyadic>::from_f64).each_ref())
-    })
+    coordinates::orient2d([a, b, c])
 }
 
 /// The sign of the area enclosed by a closed walk: Σ det[p_i − p_0, p_{i+1} − p_0].
@@ -116,10 +83,13 @@ pub(crate) fn area_sign(walk: &[Point]) -> Sign {
         }
         sum
     }
-    if walk.is_empty() {
-        return Sign::Zero;
+    match walk {
+        [] => Sign::Zero,
+        &[a, b, c] => orient2d(a, b, c),
+        _ => value::<Approx>(walk)
+            .sign()
+            .unwrap_or_else(|| value::<Dyadic>(walk).exact_sign()),
     }
-    filtered(value::<Approx>(walk), || value(walk))
 }
 
 /// Whether p is on the closed segment ab.
@@ -130,10 +100,6 @@ pub(crate) fn on_segment(p: Point, a: Point, b: Point) -> bool {
 /// Whether p is in the bounding box of a and b.
 pub(crate) fn in_box(p: Point, a: Point, b: Point) -> bool {
     (0..2).all(|k| a[k].min(b[k]) <= p[k] && p[k] <= a[k].max(b[k]))
-}
-
-fn filtered(approx: Approx, exact: impl FnOnce() -> Dyadic) -> Sign {
-    approx.sign().unwrap_or_else(|| exact().exact_sign())
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //!
 //! A choice, not a decision: floats do.
 
-use super::cut::Cell;
+use super::cells::Cell;
 use super::plane::Plane;
 use crate::mesh::VertexId;
 use crate::predicate::PointStore;
