@@ -6,7 +6,7 @@
 
 use super::crossing::{self, Conflict};
 use super::frame::{self, Flatness};
-use super::plane::{Projected, Projection, area_sign, collinear};
+use super::plane::{Projected, Projection, area_sign, collinear, convex_turn};
 use super::subdivision;
 use super::{EdgeName, FacetName, Plc, PlcError, Polygon, VertexName};
 use crate::mesh::VertexId;
@@ -128,9 +128,15 @@ impl<'a> FacetInput<'a> {
         let (frame, flat) = self.frame(&vertices)?;
         let (plane, sign) = self.project(frame)?;
         let edges: Vec<_> = self.edges().collect();
-        self.check_embedding(&plane, &edges, &[])?;
         let walk: Vec<_> = corners.iter().map(|&v| plane.at(v)).collect();
-        let frame = oriented(frame, sign, area_sign(&walk));
+        let turn = match convex_turn(&walk) {
+            Some(turn) => turn,
+            None => {
+                self.check_embedding(&plane, &edges, &[])?;
+                area_sign(&walk)
+            }
+        };
+        let frame = oriented(frame, sign, turn);
         Ok(self.finish(edges, vertices, frame, flat))
     }
 

@@ -92,6 +92,20 @@ pub(crate) fn area_sign(walk: &[Point]) -> Sign {
     }
 }
 
+/// In which direction a closed walk turns, if it is the boundary of a convex polygon with these corners and no others: it turns
+/// in the same direction everywhere, and goes round once, so that its direction changes from ascending to descending, by
+/// first and then by second coordinates, only once.
+pub(crate) fn convex_turn(walk: &[Point]) -> Option<Sign> {
+    let n = walk.len();
+    let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
+    let turn = |i: usize| orient2d(walk[i], walk[next(i)], walk[next(next(i))]);
+    let ascends = |i: usize| walk[i] < walk[next(i)];
+    let sign = turn(0);
+    let same = !sign.is_zero() && (1..n).all(|i| turn(i) == sign);
+    let changes = || (0..n).filter(|&i| ascends(i) != ascends(next(i))).count();
+    (same && changes() == 2).then_some(sign)
+}
+
 /// Whether p is on the closed segment ab.
 pub(crate) fn on_segment(p: Point, a: Point, b: Point) -> bool {
     in_box(p, a, b) && orient2d(a, b, p).is_zero()
@@ -122,6 +136,27 @@ mod tests {
             assert_eq!(area_sign(&[a, c, b]), Sign::Negative);
         }
         assert!(Projection::of([[0.0; 3], [1.0; 3], [3.0; 3]]).is_none());
+    }
+
+    #[test]
+    fn convex_walks() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        assert_eq!(convex_turn(&square), Some(Sign::Positive));
+        let [a, b, c, d] = square;
+        assert_eq!(convex_turn(&[a, d, c, b]), Some(Sign::Negative));
+        // A corner that is none, one that turns in, a bow tie, and a star that goes round twice.
+        assert_eq!(convex_turn(&[a, [1.0, 0.0], b, c, d]), None);
+        assert_eq!(convex_turn(&[a, [1.0, 0.5], b, c, d]), None);
+        assert_eq!(convex_turn(&[a, b, d, c]), None);
+        let corner = |i: u32| {
+            let angle = f64::from(i) * 0.4 * std::f64::consts::PI;
+            [angle.cos(), angle.sin()]
+        };
+        let star = [0, 2, 4, 1, 3].map(corner);
+        assert_eq!(convex_turn(&star), None);
+        assert!(area_sign(&star).is_positive());
+        let pentagon = [0, 1, 2, 3, 4].map(corner);
+        assert_eq!(convex_turn(&pentagon), Some(Sign::Positive));
     }
 
     #[test]

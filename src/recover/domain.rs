@@ -43,8 +43,9 @@ pub(crate) fn mark_domain<P: PointStore>(
         }
     }
     let component = flood.component;
+    let mut near = mesh.finite().next();
     let mut find = |kind, index, point| {
-        locate(points, mesh, walls, point)
+        locate(points, mesh, walls, &mut near, point)
             .map_err(|OnPolygon| InvalidPlc::PointOnPolygon { kind, index })
     };
     let holes: &[[f64; 3]] = if keep_hull { &[] } else { &plc.holes };
@@ -118,12 +119,17 @@ impl Flood<'_> {
 /// The point lies on a polygon, so it names no part of space.
 struct OnPolygon;
 
-/// A finite tetrahedron that contains the point, if it is in the convex hull. A walk, which need not end in a
-/// constrained tetrahedralization, then a search of all tetrahedra.
+/// The most steps of a walk.
+const MOST_STEPS: usize = 1000;
+
+/// A finite tetrahedron that contains the point, if it is in the convex hull. A walk from `near`, which need not end in a
+/// constrained tetrahedralization. If it does not, or if the point is in no interior, a walk from the first tetrahedron, then
+/// a search of all.
 fn locate<P: PointStore>(
     points: &mut P,
     mesh: &TetMesh,
     walls: &SimplexIndex<2>,
+    near: &mut Option<TetId>,
     point: [f64; 3],
 ) -> Result<Option<TetId>, OnPolygon> {
     let n = points.len();
@@ -136,10 +142,23 @@ fn locate<P: PointStore>(
             points.orient3d(moved)
         })
     };
+    let mut at = *near;
+    for _ in 0..MOST_STEPS {
+        let Some(t) = at else { break };
+        if let Some(slot) = points.facet_towards(mesh.vertices(t), p) {
+            at = Some(mesh.neighbor(t.corner(slot))).filter(|&n| !mesh.is_ghost(n));
+        } else if sides(t).iter().all(|s| s.is_positive()) {
+            *near = at;
+            points.truncate(n);
+            return Ok(at);
+        } else {
+            break;
+        }
+    }
     let outward = |t: TetId| sides(t).iter().position(|s| s.is_negative());
     let mut found = None;
     let mut at = mesh.finite().next();
-    for _ in 0..1000 {
+    for _ in 0..MOST_STEPS {
         let Some(t) = at else { break };
         match outward(t) {
             None => {

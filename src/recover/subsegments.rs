@@ -19,6 +19,8 @@ pub struct Subsegments {
     steiner: Vec<Option<(u32, Parameter)>>,
     first_steiner: usize,
     ends: Vec<[VertexId; 2]>,
+    /// The segments that were split since the chains were last brought into order.
+    out_of_order: Vec<u32>,
 }
 
 impl Subsegments {
@@ -37,6 +39,7 @@ impl Subsegments {
             steiner: Vec::new(),
             first_steiner,
             ends,
+            out_of_order: Vec::new(),
         }
     }
 
@@ -138,6 +141,7 @@ impl Subsegments {
         debug_assert_eq!(v.index(), self.first_steiner + self.steiner.len());
         self.steiner.push(Some((s, t)));
         self.chains[s as usize].push((t, v));
+        self.out_of_order.push(s);
         [[a, v], [v, b]]
     }
 
@@ -231,8 +235,10 @@ impl Subsegments {
 
     /// Brings the chains into order, once all Steiner points are there.
     pub(super) fn finish(&mut self) {
-        for chain in &mut self.chains {
-            chain.sort_unstable_by(|x, y| Parameter::order(&x.0, &y.0));
+        self.out_of_order.sort_unstable();
+        self.out_of_order.dedup();
+        for s in self.out_of_order.drain(..) {
+            self.chains[s as usize].sort_unstable_by(|x, y| Parameter::order(&x.0, &y.0));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::figure::Figure;
 use super::plane::Plane;
+use super::steiner::{cross, minus, square};
 use crate::mesh::{Groups, VertexId};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
@@ -127,25 +128,11 @@ fn frame<P: PointStore>(
     vertices: &[VertexId],
 ) -> Option<[VertexId; 3]> {
     let at = |v: VertexId| points.rounded(v);
-    let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    let square = |p: [f64; 3]| p.iter().map(|x| x * x).sum::<f64>();
-    let farthest = |key: &dyn Fn(VertexId) -> f64| {
-        vertices
-            .iter()
-            .copied()
-            .max_by(|&v, &w| key(v).total_cmp(&key(w)).then(w.cmp(&v)))
-    };
     let first = *vertices.first()?;
-    let a = farthest(&|v| square(minus(at(v), at(first))))?;
-    let b = farthest(&|v| square(minus(at(v), at(a))))?;
-    let c = farthest(&|v| {
-        let (p, q) = (minus(at(b), at(a)), minus(at(v), at(a)));
-        square([
-            p[1] * q[2] - p[2] * q[1],
-            p[2] * q[0] - p[0] * q[2],
-            p[0] * q[1] - p[1] * q[0],
-        ])
-    })?;
+    let a = farthest(vertices, |v| square(minus(at(v), at(first))))?;
+    let b = farthest(vertices, |v| square(minus(at(v), at(a))))?;
+    let line = minus(at(b), at(a));
+    let c = farthest(vertices, |v| square(cross(line, minus(at(v), at(a)))))?;
     let oriented = |[a, b, c]: [VertexId; 3]| {
         let sign = plane.turn(a, b, c);
         (!sign.is_zero()).then(|| {
@@ -160,4 +147,16 @@ fn frame<P: PointStore>(
         let &b = vertices.get(1)?;
         vertices.iter().find_map(|&c| oriented([first, b, c]))
     })
+}
+
+/// The first of the vertices for which the key is largest.
+fn farthest(vertices: &[VertexId], key: impl Fn(VertexId) -> f64) -> Option<VertexId> {
+    let mut best: Option<(f64, VertexId)> = None;
+    for &v in vertices {
+        let found = key(v);
+        if best.is_none_or(|(most, _)| found.total_cmp(&most).is_gt()) {
+            best = Some((found, v));
+        }
+    }
+    best.map(|(_, v)| v)
 }

@@ -3,7 +3,7 @@
 //! A vertex is on several polygons, and may be the hub of very many edges: its star is walked once, and again only after it
 //! has changed. Linear in the stars that are asked for.
 
-use crate::mesh::{Incidence, TetMesh, VertexId};
+use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use rustc_hash::FxHashSet;
 
 /// For each vertex that was asked for, its neighbours of greater id.
@@ -14,6 +14,9 @@ pub(super) struct Neighbours {
     seen_tets: Vec<u32>,
     seen: Vec<u32>,
     round: u32,
+    /// Memory used again.
+    open: Vec<TetId>,
+    found: Vec<VertexId>,
 }
 
 impl Neighbours {
@@ -43,15 +46,21 @@ impl Neighbours {
         }
         self.round += 1;
         let round = self.round;
-        let mut open = Vec::from_iter(incidence.tet_at(v));
-        let mut found = Vec::new();
-        open.iter().for_each(|t| self.seen_tets[t.index()] = round);
-        while let Some(t) = open.pop() {
+        self.found.clear();
+        if let Some(t) = incidence.tet_at(v) {
+            self.seen_tets[t.index()] = round;
+            self.open.push(t);
+        }
+        while let Some(t) = self.open.pop() {
             let vertices = mesh.vertices(t);
-            for (slot, &w) in vertices.iter().enumerate().filter(|(_, w)| **w != v) {
+            for slot in 0..4 {
+                let w = vertices[slot];
+                if w == v {
+                    continue;
+                }
                 let n = mesh.neighbor(t.corner(slot));
                 if std::mem::replace(&mut self.seen_tets[n.index()], round) != round {
-                    open.push(n);
+                    self.open.push(n);
                 }
                 if w < v || w.is_infinite() {
                     continue;
@@ -60,11 +69,11 @@ impl Neighbours {
                     self.seen.resize(w.index() + 1, 0);
                 }
                 if std::mem::replace(&mut self.seen[w.index()], round) != round {
-                    found.push(w);
+                    self.found.push(w);
                 }
             }
         }
-        found.sort_unstable();
-        found.into_boxed_slice()
+        self.found.sort_unstable();
+        Box::from(&self.found[..])
     }
 }
