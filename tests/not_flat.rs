@@ -101,7 +101,6 @@ fn a_few_of_every_family() {
 }
 
 #[test]
-#[ignore = "minutes"]
 fn many_of_every_family() {
     let cases = std::env::var("NOT_FLAT_CASES").ok();
     let cases = cases.and_then(|n| n.parse().ok()).unwrap_or(500);

@@ -4,10 +4,27 @@ mod export;
 mod flip;
 mod ids;
 mod incidence;
+mod least;
 mod topology;
 
 pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;
+pub(crate) use least::{Groups, SimplexIndex, sort_by_least};
 pub use topology::{FACET, NEXT, TetMesh, TopologyError};
+
+#[cfg(test)]
+impl TetMesh {
+    /// The finite tetrahedra by their vertices in ascending order, sorted: equal for equal tetrahedralizations.
+    pub(crate) fn sorted_tets(&self) -> Vec<[VertexId; 4]> {
+        let ascending = |t| {
+            let mut v = self.vertices(t);
+            v.sort_unstable();
+            v
+        };
+        let mut tets: Vec<[VertexId; 4]> = self.finite().map(ascending).collect();
+        tets.sort_unstable();
+        tets
+    }
+}

@@ -22,9 +22,15 @@ impl Complex {
         check_points(plc)?;
         let representative = representatives(&plc.vertices);
         let given = given_segments(plc, &representative)?;
-        let mut segments = Segments::default();
+        let corners: usize = plc
+            .facets
+            .iter()
+            .flat_map(|f| &f.polygons)
+            .map(Vec::len)
+            .sum();
+        let mut segments = Segments::with_capacity(corners / 2 + given.len());
         let mut explicit: FxHashSet<_> = given.iter().map(|s| undirected(s.ends)).collect();
-        let mut polygons = Vec::new();
+        let mut polygons = Vec::with_capacity(plc.facets.len());
         for index in 0..plc.facets.len() {
             let facet = FacetInput::new(plc, index, &representative)?;
             for ends in facet.edges() {
@@ -33,7 +39,9 @@ impl Complex {
             explicit.extend(floating_edges(&facet));
             if facet.is_area() {
                 let polygon = facet.polygon()?;
-                explicit.extend(loose_edges(&facet, &polygon));
+                if !facet.is_simple(polygon.vertices.len()) {
+                    explicit.extend(loose_edges(&facet, &polygon));
+                }
                 polygons.push(polygon);
             }
         }
@@ -43,8 +51,10 @@ impl Complex {
         if merge_coplanar {
             let merged = merge::merge(plc, polygons, &explicit)?;
             polygons = merged.polygons;
-            check_different(plc, &polygons)?;
-            segments.retain(|s| !merged.dropped.contains(&undirected(s.ends)));
+            if !merged.dropped.is_empty() {
+                check_different(plc, &polygons)?;
+                segments.retain(|s| !merged.dropped.contains(&undirected(s.ends)));
+            }
         }
         Ok(Complex {
             representative,
@@ -81,7 +91,7 @@ fn check_points(plc: &Plc) -> Result<(), PlcError> {
 
 /// The first vertex with the coordinates of each one, where −0 = 0.
 pub(crate) fn representatives(vertices: &[[f64; 3]]) -> Vec<VertexId> {
-    let mut first = FxHashMap::default();
+    let mut first = FxHashMap::with_capacity_and_hasher(vertices.len(), Default::default());
     let ids = vertices.iter().enumerate().map(|(i, point)| {
         let key = point.map(|x| (x + 0.0).to_bits());
         *first.entry(key).or_insert_with(|| VertexId::new(i))
@@ -134,6 +144,16 @@ fn loose_edges(facet: &FacetInput, polygon: &Polygon) -> Vec<[VertexId; 2]> {
 
 /// No two polygons have the same edges with the same sides, as seen from one side or from both.
 fn check_different(plc: &Plc, polygons: &[Polygon]) -> Result<(), PlcError> {
+    // A sum over the edges that does not know their direction; nearly always they differ.
+    let fingerprint = |polygon: &Polygon| {
+        let edges = polygon.edges.iter().map(|&e| hash(undirected(e)));
+        edges.fold(0u64, u64::wrapping_add)
+    };
+    let mut fingerprints: Vec<u64> = polygons.iter().map(fingerprint).collect();
+    fingerprints.sort_unstable();
+    if fingerprints.windows(2).all(|pair| pair[0] != pair[1]) {
+        return Ok(());
+    }
     let mut seen = FxHashMap::default();
     for polygon in polygons {
         let mut reversed: Vec<_> = polygon.edges.iter().map(|&[a, b]| [b, a]).collect();
@@ -154,14 +174,28 @@ fn check_different(plc: &Plc, polygons: &[Polygon]) -> Result<(), PlcError> {
     Ok(())
 }
 
+/// Well-mixed bits of an edge (the finalizer of SplitMix64: Steele, Lea & Flood 2014).
+fn hash([a, b]: [VertexId; 2]) -> u64 {
+    let x = u64::from(a.0) << 32 | u64::from(b.0);
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
 /// Segments by their ends, in order of first appearance.
-#[derive(Default)]
 struct Segments {
     list: Vec<Segment>,
     index: FxHashMap<[VertexId; 2], usize>,
 }
 
 impl Segments {
+    fn with_capacity(n: usize) -> Segments {
+        Segments {
+            list: Vec::with_capacity(n),
+            index: FxHashMap::with_capacity_and_hasher(n, Default::default()),
+        }
+    }
+
     /// Adds a segment, or gives its marker to the one that is there if that has none.
     fn add(&mut self, segment: Segment) {
         match self.index.entry(undirected(segment.ends)) {

@@ -6,11 +6,12 @@
 
 use super::crossing::{self, Conflict};
 use super::frame::{self, Flatness};
-use super::plane::{Projected, Projection, area_sign, collinear};
+use super::plane::{Projected, Projection, area_sign, collinear, convex_turn};
 use super::subdivision;
 use super::{EdgeName, FacetName, Plc, PlcError, Polygon, VertexName};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use std::borrow::Cow;
 
 /// The polygons of a facet after duplicate vertices have been merged.
 pub(crate) struct FacetInput<'a> {
@@ -19,7 +20,7 @@ pub(crate) struct FacetInput<'a> {
     /// The facet's index.
     pub index: usize,
     /// Its polygons, checked by [`FacetInput::new`].
-    pub polygons: Vec<Vec<VertexId>>,
+    pub polygons: Cow<'a, [Vec<VertexId>]>,
 }
 
 impl<'a> FacetInput<'a> {
@@ -34,10 +35,17 @@ impl<'a> FacetInput<'a> {
         if given.is_empty() {
             return Err(PlcError::Empty { facet: facet() });
         }
-        let mut polygons = Vec::with_capacity(given.len());
+        // Most inputs have no duplicate vertices.
+        let is_itself = |v: &VertexId| representative.get(v.index()) == Some(v);
+        let same = given.iter().flatten().all(is_itself);
+        let mut mapped = Vec::new();
         for corners in given {
             if corners.is_empty() {
                 return Err(PlcError::Empty { facet: facet() });
+            }
+            if same {
+                check_corners(plc, index, corners, corners)?;
+                continue;
             }
             let map = |&v: &VertexId| {
                 let found = representative.get(v.index()).copied();
@@ -47,31 +55,29 @@ impl<'a> FacetInput<'a> {
                 })
             };
             let polygon: Vec<VertexId> = corners.iter().map(map).collect::<Result<_, _>>()?;
-            let repeated = (0..polygon.len()).find(|&i| {
-                let previous = (i + polygon.len() - 1) % polygon.len();
-                i != previous && polygon[i] == polygon[previous]
-            });
-            if let Some(i) = repeated {
-                return Err(PlcError::RepeatedVertex {
-                    facet: facet(),
-                    vertex: VertexName::new(plc, corners[i]),
-                });
-            }
-            if polygon.len() >= 3 && sorted(polygon.clone()).len() < 3 {
-                return Err(PlcError::TooFewVertices { facet: facet() });
-            }
-            polygons.push(polygon);
+            check_corners(plc, index, corners, &polygon)?;
+            mapped.push(polygon);
         }
         Ok(FacetInput {
             plc,
             index,
-            polygons,
+            polygons: if same {
+                Cow::Borrowed(given)
+            } else {
+                Cow::Owned(mapped)
+            },
         })
     }
 
     /// Whether some polygon is more than a segment or a vertex.
     pub fn is_area(&self) -> bool {
         self.polygons.iter().any(|p| p.len() >= 3)
+    }
+
+    /// Whether it is one polygon without repeated corners and without holes: the order of its corners counts.
+    pub fn is_simple(&self, vertices: usize) -> bool {
+        let holes = &self.plc.facets[self.index].holes;
+        matches!(&self.polygons[..], [corners] if holes.is_empty() && corners.len() == vertices)
     }
 
     /// The edges of all polygons in order, those of closed polygons as they are passed through.
@@ -88,17 +94,19 @@ impl<'a> FacetInput<'a> {
 
     /// The polygon in the sense of the paper.
     pub fn polygon(&self) -> Result<Polygon, PlcError> {
-        let facet = &self.plc.facets[self.index];
         let [corners] = &self.polygons[..] else {
             return self.general();
         };
-        if !facet.holes.is_empty() {
-            return self.general();
+        if let &[a, b, c] = &corners[..]
+            && self.is_simple(3)
+        {
+            return self.triangle([a, b, c]);
         }
-        match corners[..] {
-            [a, b, c] => self.triangle([a, b, c]),
-            _ if sorted(corners.clone()).len() == corners.len() => self.simple(corners),
-            _ => self.general(),
+        let vertices = sorted(corners.clone());
+        if self.is_simple(vertices.len()) {
+            self.simple(corners, vertices)
+        } else {
+            self.general()
         }
     }
 
@@ -116,14 +124,19 @@ impl<'a> FacetInput<'a> {
     }
 
     /// A polygon without repeated corners.
-    fn simple(&self, corners: &[VertexId]) -> Result<Polygon, PlcError> {
-        let vertices = sorted(corners.to_vec());
+    fn simple(&self, corners: &[VertexId], vertices: Vec<VertexId>) -> Result<Polygon, PlcError> {
         let (frame, flat) = self.frame(&vertices)?;
         let (plane, sign) = self.project(frame)?;
         let edges: Vec<_> = self.edges().collect();
-        self.check_embedding(&plane, &edges, &[])?;
         let walk: Vec<_> = corners.iter().map(|&v| plane.at(v)).collect();
-        let frame = oriented(frame, sign, area_sign(&walk));
+        let turn = match convex_turn(&walk) {
+            Some(turn) => turn,
+            None => {
+                self.check_embedding(&plane, &edges, &[])?;
+                area_sign(&walk)
+            }
+        };
+        let frame = oriented(frame, sign, turn);
         Ok(self.finish(edges, vertices, frame, flat))
     }
 
@@ -259,6 +272,31 @@ impl<'a> FacetInput<'a> {
     fn name(&self) -> FacetName {
         FacetName::new(self.plc, self.index)
     }
+}
+
+/// Whether the corners of a polygon, which become `polygon` after duplicate vertices have been merged, are distinct enough.
+fn check_corners(
+    plc: &Plc,
+    index: usize,
+    corners: &[VertexId],
+    polygon: &[VertexId],
+) -> Result<(), PlcError> {
+    let repeated = (0..polygon.len()).find(|&i| {
+        let previous = if i == 0 { polygon.len() } else { i } - 1;
+        i != previous && polygon[i] == polygon[previous]
+    });
+    if let Some(i) = repeated {
+        return Err(PlcError::RepeatedVertex {
+            facet: FacetName::new(plc, index),
+            vertex: VertexName::new(plc, corners[i]),
+        });
+    }
+    // Neighbours differ, so that there are two vertices at least.
+    if polygon.len() >= 3 && polygon.iter().all(|v| polygon[..2].contains(v)) {
+        let facet = FacetName::new(plc, index);
+        return Err(PlcError::TooFewVertices { facet });
+    }
+    Ok(())
 }
 
 /// The frame turned so that its orientation in the projection, now `sign`, becomes `wanted`.

@@ -27,11 +27,13 @@ pub(super) enum Flatness {
 pub(super) fn choose(points: &[[f64; 3]], vertices: &[VertexId]) -> Option<[VertexId; 3]> {
     let &start = vertices.first()?;
     let unit = Unit::of(points, vertices);
-    let at = |v: VertexId| unit.point(points[v.index()]);
-    let a = farthest(vertices, |v| length2(minus(at(v), at(start))));
-    let b = farthest(vertices, |v| length2(minus(at(v), at(a))));
-    let line = minus(at(b), at(a));
-    let c = farthest(vertices, |v| length2(cross(line, minus(at(v), at(a)))));
+    let scaled = vertices.iter().map(|v| unit.point(points[v.index()]));
+    let at: Vec<[f64; 3]> = scaled.collect();
+    let a = farthest(&at, |p| length2(minus(p, at[0])));
+    let b = farthest(&at, |p| length2(minus(p, at[a])));
+    let line = minus(at[b], at[a]);
+    let c = farthest(&at, |p| length2(cross(line, minus(p, at[a]))));
+    let [a, b, c] = [vertices[a], vertices[b], vertices[c]];
     let is_frame = |frame: [VertexId; 3]| !collinear(frame.map(|v| points[v.index()]));
     if is_frame([a, b, c]) {
         return Some([a, b, c]);
@@ -52,7 +54,8 @@ pub(super) fn flatness(
     vertices: &[VertexId],
 ) -> Flatness {
     let [a, b, c] = frame.map(|v| points[v.index()]);
-    let off_plane = |v: &&VertexId| !orient3d([a, b, c, points[v.index()]]).is_zero();
+    let off_plane =
+        |v: &&VertexId| !frame.contains(v) && !orient3d([a, b, c, points[v.index()]]).is_zero();
     let outside: Vec<VertexId> = vertices.iter().filter(off_plane).copied().collect();
     if outside.is_empty() {
         return Flatness::Flat;
@@ -68,7 +71,7 @@ pub(super) fn flatness(
         let d = scaled(points[v.index()]);
         formula::orient3d([&a, &b, &c, &d]).to_f64().abs() / normal_length
     };
-    let worst = farthest(&outside, distance);
+    let worst = outside[farthest(&outside, distance)];
     let found = distance(worst);
     let diagonal =
         length2(unit.extent).sqrt() * Dyadic::from_f64(unit.size).shifted(1 - exponent).to_f64();
@@ -93,14 +96,13 @@ struct Unit {
 
 impl Unit {
     fn of(points: &[[f64; 3]], vertices: &[VertexId]) -> Unit {
-        let bound = |start: f64, pick: fn(f64, f64) -> f64| -> [f64; 3] {
-            [0, 1, 2].map(|k| {
-                let coordinates = vertices.iter().map(|v| points[v.index()][k]);
-                coordinates.fold(start, pick)
-            })
-        };
-        let low = bound(f64::INFINITY, f64::min);
-        let high = bound(f64::NEG_INFINITY, f64::max);
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for v in vertices {
+            for (k, &x) in points[v.index()].iter().enumerate() {
+                low[k] = low[k].min(x);
+                high[k] = high[k].max(x);
+            }
+        }
         let half = half_minus(high, low);
         let size = half.into_iter().fold(f64::MIN_POSITIVE, f64::max);
         Unit {
@@ -111,13 +113,18 @@ impl Unit {
     }
 
     fn point(&self, p: [f64; 3]) -> [f64; 3] {
-        half_minus(p, self.low).map(|x| x / self.size)
+        let [x, y, z] = half_minus(p, self.low);
+        [x / self.size, y / self.size, z / self.size]
     }
 }
 
 /// (p − q)/2, which does not overflow.
 fn half_minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| 0.5 * p[k] - 0.5 * q[k])
+    [
+        0.5 * p[0] - 0.5 * q[0],
+        0.5 * p[1] - 0.5 * q[1],
+        0.5 * p[2] - 0.5 * q[2],
+    ]
 }
 
 /// The exponent of a positive normal double.
@@ -125,20 +132,20 @@ fn exponent_of(x: f64) -> i64 {
     ((x.to_bits() >> 52) & 0x7ff) as i64 - 1023
 }
 
-/// The first of the vertices with the largest measure.
-fn farthest(vertices: &[VertexId], measure: impl Fn(VertexId) -> f64) -> VertexId {
-    let mut best = (vertices[0], f64::NEG_INFINITY);
-    for &v in vertices {
-        let found = measure(v);
+/// The place of the first item with the largest measure.
+fn farthest<T: Copy>(items: &[T], measure: impl Fn(T) -> f64) -> usize {
+    let mut best = (0, f64::NEG_INFINITY);
+    for (i, &item) in items.iter().enumerate() {
+        let found = measure(item);
         if found > best.1 {
-            best = (v, found);
+            best = (i, found);
         }
     }
     best.0
 }
 
 fn minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| p[k] - q[k])
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
 }
 
 fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {

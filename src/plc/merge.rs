@@ -13,15 +13,16 @@ use super::facet::{sorted, undirected};
 use super::frame;
 use super::plane::{Projected, Projection, orient3d};
 use super::{EdgeName, FacetName, Plc, PlcError, Polygon};
-use crate::mesh::VertexId;
+use crate::mesh::{Groups, VertexId};
 use rustc_hash::FxHashSet;
 
-/// A directed edge of a polygon.
+/// A directed edge of a polygon, by its greater end.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Side {
-    edge: [VertexId; 2],
-    polygon: usize,
-    directed: [VertexId; 2],
+    end: VertexId,
+    polygon: u32,
+    /// Whether it leads to its greater end.
+    ascends: bool,
 }
 
 /// Polygons after merging.
@@ -38,36 +39,54 @@ pub(super) fn merge(
     polygons: Vec<Polygon>,
     explicit: &FxHashSet<[VertexId; 2]>,
 ) -> Result<Merged, PlcError> {
-    let mut groups = Groups::new(polygons.len());
+    let mut groups = UnionFind::new(polygons.len());
     let mut dropped = FxHashSet::default();
-    for sides in sides(&polygons).chunk_by(|s, t| s.edge == t.edge) {
-        let &[s, t] = sides else { continue };
-        let [f, g] = [&polygons[s.polygon], &polygons[t.polygon]];
-        if s.polygon == t.polygon || !coplanar(plc, f, g) {
-            continue;
+    let sides = sides(plc.vertices.len(), &polygons);
+    for least in (0..plc.vertices.len()).map(VertexId::new) {
+        for sides in sides.of(least).chunk_by(|s, t| s.end == t.end) {
+            let &[s, t] = sides else { continue };
+            let (i, j, edge) = (s.polygon as usize, t.polygon as usize, [least, s.end]);
+            let [f, g] = [&polygons[i], &polygons[j]];
+            if i == j || !coplanar(plc, f, g) {
+                continue;
+            }
+            let flipped = is_flipped(plc, f, g);
+            if (s.ascends == t.ascends) != flipped {
+                return Err(overlap(plc, f, g, edge));
+            }
+            if f.marker != g.marker || explicit.contains(&edge) {
+                continue;
+            }
+            groups.join(i, j, flipped);
+            dropped.insert(edge);
         }
-        let flipped = is_flipped(plc, f, g);
-        if (s.directed == t.directed) != flipped {
-            return Err(overlap(plc, f, g, s.edge));
-        }
-        if f.marker != g.marker || explicit.contains(&s.edge) {
-            continue;
-        }
-        groups.join(s.polygon, t.polygon, flipped);
-        dropped.insert(s.edge);
+    }
+    if dropped.is_empty() {
+        return Ok(Merged { polygons, dropped });
     }
 
-    let mut members = vec![Vec::new(); polygons.len()];
-    for i in 0..polygons.len() {
-        members[groups.find(i).0].push(i);
-    }
     // The root of a group is its lowest polygon, so this is the order of lowest facets.
+    let roots: Vec<usize> = (0..polygons.len()).map(|i| groups.find(i).0).collect();
+    let members = roots.iter().zip(0usize..);
+    let members = Groups::new(
+        polygons.len(),
+        members.map(|(&root, i)| (VertexId::new(root), i)),
+    );
+    let mut joined = Vec::new();
+    for i in 0..polygons.len() {
+        let group = members.of(VertexId::new(i));
+        if group.len() > 1 {
+            joined.push(join(plc, &polygons, group, &mut groups, &dropped)?);
+        }
+    }
+    let mut joined = joined.into_iter();
     let mut merged = Vec::new();
-    for group in members.into_iter().filter(|group| !group.is_empty()) {
-        merged.push(match group[..] {
-            [single] => polygons[single].clone(),
-            _ => join(plc, &polygons, &group, &mut groups, &dropped)?,
-        });
+    for (i, polygon) in polygons.into_iter().enumerate() {
+        match members.of(VertexId::new(i)) {
+            [] => {}
+            [_] => merged.push(polygon),
+            _ => merged.extend(joined.next()),
+        }
     }
     Ok(Merged {
         polygons: merged,
@@ -75,19 +94,23 @@ pub(super) fn merge(
     })
 }
 
-/// All edges of all polygons, sorted so that those with the same ends are together.
-fn sides(polygons: &[Polygon]) -> Vec<Side> {
-    let of = |(polygon, f): (usize, &'_ Polygon)| {
-        let side = move |&directed: &[VertexId; 2]| Side {
-            edge: undirected(directed),
-            polygon,
-            directed,
-        };
-        f.edges.iter().map(side).collect::<Vec<_>>()
-    };
-    let mut sides: Vec<Side> = polygons.iter().enumerate().flat_map(of).collect();
-    sides.sort_unstable();
+/// All edges of all polygons by their lesser ends, of n vertices, sorted so that those with the same ends are together.
+fn sides(n: usize, polygons: &[Polygon]) -> Groups<Side> {
+    let mut sides = Groups::new(n, (0u32..).zip(polygons).flat_map(sides_of));
+    sides.sort_groups(|&side| side);
     sides
+}
+
+fn sides_of((polygon, f): (u32, &Polygon)) -> impl Iterator<Item = (VertexId, Side)> + Clone + '_ {
+    let side = move |&[a, b]: &[VertexId; 2]| {
+        let side = Side {
+            end: a.max(b),
+            polygon,
+            ascends: a < b,
+        };
+        (a.min(b), side)
+    };
+    f.edges.iter().map(side)
 }
 
 /// Whether all vertices of f and g are exactly on one plane.
@@ -115,7 +138,7 @@ fn join(
     plc: &Plc,
     polygons: &[Polygon],
     group: &[usize],
-    groups: &mut Groups,
+    groups: &mut UnionFind,
     dropped: &FxHashSet<[VertexId; 2]>,
 ) -> Result<Polygon, PlcError> {
     let mut sides = Vec::new();
@@ -171,13 +194,13 @@ fn overlap(plc: &Plc, f: &Polygon, g: &Polygon, edge: [VertexId; 2]) -> PlcError
 }
 
 /// Union-find, where every element knows whether it is flipped with respect to the root of its group.
-struct Groups {
+struct UnionFind {
     parent: Vec<(usize, bool)>,
 }
 
-impl Groups {
-    fn new(n: usize) -> Groups {
-        Groups {
+impl UnionFind {
+    fn new(n: usize) -> UnionFind {
+        UnionFind {
             parent: (0..n).map(|i| (i, false)).collect(),
         }
     }

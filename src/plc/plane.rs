@@ -2,8 +2,9 @@
 //! the projected coordinates are input doubles and no rounding happens at all.
 
 use crate::mesh::VertexId;
-use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
-use crate::predicate::formula;
+use crate::number::{Approx, Dyadic, Exact, Number, Sign};
+use crate::predicate::coordinates;
+pub(crate) use crate::predicate::coordinates::orient3d;
 
 /// A point of the projection plane.
 pub(crate) type Point = [f64; 2];
@@ -21,20 +22,8 @@ impl Projection {
     /// Component k of (b−a) × (c−a) is the determinant of the triangle projected along axis k onto the axes
     /// (k+1, k+2) mod 3, which is what [`Projection::point`] keeps.
     pub fn of(triangle: [[f64; 3]; 3]) -> Option<(Projection, Sign)> {
-        let [a, b, c] = triangle.map(Vec3::<Dyadic>::from_f64);
-        let normal = b.sub(&a).cross(&c.sub(&a)).0;
-        let size = |k: usize| match normal[k].exact_sign() {
-            Sign::Negative => normal[k].clone().negated(),
-            _ => normal[k].clone(),
-        };
-        let mut axis = 0;
-        for k in [1, 2] {
-            if (size(k) - &size(axis)).exact_sign().is_positive() {
-                axis = k;
-            }
-        }
-        let sign = normal[axis].exact_sign();
-        (!sign.is_zero()).then_some((Projection { axis }, sign))
+        let (axis, sign) = coordinates::normal_axis(triangle)?;
+        Some((Projection { axis }, sign))
     }
 
     /// The two coordinates that are kept.
@@ -73,31 +62,9 @@ pub(crate) fn collinear(points: [[f64; 3]; 3]) -> bool {
 }
 
 /// The sign of det[b−a, c−a]: positive iff abc turns counterclockwise.
+#[inline]
 pub(crate) fn orient2d(a: Point, b: Point, c: Point) -> Sign {
-    fn value<N: Number>(points: [Point; 3]) -> N {
-        let [a, b, c] = points.map(|p| p.map(N::from_f64));
-        let minus = |p: &[N; 2], k: usize| p[k].clone() - &a[k];
-        minus(&b, 0) * &minus(&c, 1) - &(minus(&b, 1) * &minus(&c, 0))
-    }
-    filtered(value::<Approx>([a, b, c]), || {
-        // Points on a line across a coordinate axis are common in planes across one, and need no arithmetic.
-        if (0..2).any(|k| a[k] == b[k] && b[k] == c[k]) {
-            return Dyadic::ZERO;
-        }
-        value([a, b, c])
-    })
-}
-
-/// The sign of det[b−a, c−a, d−a].
-pub(crate) fn orient3d(points: [[f64; 3]; 4]) -> Sign {
-    // The commonest coplanar points, without arithmetic: all in one plane across a coordinate axis.
-    if (0..3).any(|k| points.iter().all(|p| p[k] == points[0][k])) {
-        return Sign::Zero;
-    }
-    let approx = points.map(Vec3::<Approx>::from_f64);
-    filtered(formula::orient3d(approx.each_ref()), || {
-        formula::orient3d(points.map(Vec3::<Dyadic>::from_f64).each_ref())
-    })
+    coordinates::orient2d([a, b, c])
 }
 
 /// The sign of the area enclosed by a closed walk: Σ det[p_i − p_0, p_{i+1} − p_0].
@@ -116,10 +83,27 @@ pub(crate) fn area_sign(walk: &[Point]) -> Sign {
         }
         sum
     }
-    if walk.is_empty() {
-        return Sign::Zero;
+    match walk {
+        [] => Sign::Zero,
+        &[a, b, c] => orient2d(a, b, c),
+        _ => value::<Approx>(walk)
+            .sign()
+            .unwrap_or_else(|| value::<Dyadic>(walk).exact_sign()),
     }
-    filtered(value::<Approx>(walk), || value(walk))
+}
+
+/// In which direction a closed walk turns, if it is the boundary of a convex polygon with these corners and no others: it turns
+/// in the same direction everywhere, and goes round once, so that its direction changes from ascending to descending, by
+/// first and then by second coordinates, only once.
+pub(crate) fn convex_turn(walk: &[Point]) -> Option<Sign> {
+    let n = walk.len();
+    let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
+    let turn = |i: usize| orient2d(walk[i], walk[next(i)], walk[next(next(i))]);
+    let ascends = |i: usize| walk[i] < walk[next(i)];
+    let sign = turn(0);
+    let same = !sign.is_zero() && (1..n).all(|i| turn(i) == sign);
+    let changes = || (0..n).filter(|&i| ascends(i) != ascends(next(i))).count();
+    (same && changes() == 2).then_some(sign)
 }
 
 /// Whether p is on the closed segment ab.
@@ -130,10 +114,6 @@ pub(crate) fn on_segment(p: Point, a: Point, b: Point) -> bool {
 /// Whether p is in the bounding box of a and b.
 pub(crate) fn in_box(p: Point, a: Point, b: Point) -> bool {
     (0..2).all(|k| a[k].min(b[k]) <= p[k] && p[k] <= a[k].max(b[k]))
-}
-
-fn filtered(approx: Approx, exact: impl FnOnce() -> Dyadic) -> Sign {
-    approx.sign().unwrap_or_else(|| exact().exact_sign())
 }
 
 #[cfg(test)]
@@ -156,6 +136,27 @@ mod tests {
             assert_eq!(area_sign(&[a, c, b]), Sign::Negative);
         }
         assert!(Projection::of([[0.0; 3], [1.0; 3], [3.0; 3]]).is_none());
+    }
+
+    #[test]
+    fn convex_walks() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        assert_eq!(convex_turn(&square), Some(Sign::Positive));
+        let [a, b, c, d] = square;
+        assert_eq!(convex_turn(&[a, d, c, b]), Some(Sign::Negative));
+        // A corner that is none, one that turns in, a bow tie, and a star that goes round twice.
+        assert_eq!(convex_turn(&[a, [1.0, 0.0], b, c, d]), None);
+        assert_eq!(convex_turn(&[a, [1.0, 0.5], b, c, d]), None);
+        assert_eq!(convex_turn(&[a, b, d, c]), None);
+        let corner = |i: u32| {
+            let angle = f64::from(i) * 0.4 * std::f64::consts::PI;
+            [angle.cos(), angle.sin()]
+        };
+        let star = [0, 2, 4, 1, 3].map(corner);
+        assert_eq!(convex_turn(&star), None);
+        assert!(area_sign(&star).is_positive());
+        let pentagon = [0, 1, 2, 3, 4].map(corner);
+        assert_eq!(convex_turn(&pentagon), Some(Sign::Positive));
     }
 
     #[test]

@@ -169,6 +169,11 @@ impl PointStore for DoublePoints {
             .map_or(self.points[v.index()], |p| p.rounded)
     }
 
+    #[inline]
+    fn doubles(&self, v: VertexId) -> Option<[f64; 3]> {
+        self.is_double(v).then(|| self.points[v.index()])
+    }
+
     fn coordinates<N: Number>(&self, v: VertexId) -> Vec3<N> {
         match self.segment_point(v) {
             Some(p) => between(p.ends, p.t),

@@ -68,6 +68,12 @@ fn expand<const D: usize, const D2: usize, const D3: usize>(
     outer.minus(&b[2].times(ac)).plus(&c[2].times(ab))
 }
 
+/// The sign of orient2d, in the first two coordinates.
+#[inline]
+pub(super) fn orient2d<const D: usize, const D2: usize>([a, b, c]: [Vector<D>; 3]) -> Sign {
+    minor::<D, D2>(&difference(&b, &a), &difference(&c, &a)).sign()
+}
+
 /// The sign of orient3d.
 #[inline]
 pub(super) fn orient3d<const D: usize, const D2: usize, const D3: usize>(

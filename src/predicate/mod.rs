@@ -3,6 +3,7 @@
 //! The algorithms ask a [`PointStore`] for signs and never see a coordinate, so that a store of exact dyadic points can
 //! take the place of [`DoublePoints`].
 
+pub(crate) mod coordinates;
 mod double_points;
 pub mod formula;
 mod integers;

@@ -161,7 +161,7 @@ impl DoublePoints {
 
 /// A point in units of 2^grid.
 #[inline(always)]
-fn on_grid<const D: usize>([x, y, z]: [f64; 3], grid: i32) -> [Integer<D>; 3] {
+pub(super) fn on_grid<const D: usize>([x, y, z]: [f64; 3], grid: i32) -> [Integer<D>; 3] {
     [
         Integer::on_grid(x, grid),
         Integer::on_grid(y, grid),

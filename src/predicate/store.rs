@@ -24,6 +24,11 @@ pub trait PointStore {
     /// The coordinates as numbers of type `N`: exact if `N` is.
     fn coordinates<N: Number>(&self, v: VertexId) -> Vec3<N>;
 
+    /// The coordinates, if they are known to be doubles.
+    fn doubles(&self, _: VertexId) -> Option<[f64; 3]> {
+        None
+    }
+
     /// Adds a point with double coordinates.
     fn push(&mut self, p: [f64; 3]) -> VertexId;
 

@@ -3,10 +3,8 @@
 //! The subpolygons divide the tetrahedra into components. Those connected to the ghosts are outside; those that hold a
 //! hole point are holes; the rest is the domain. A region point gives its attribute to its component.
 
-use super::cavity::face;
-use super::polygons::Subpolygons;
 use crate::error::InvalidPlc;
-use crate::mesh::{Incidence, TetId, TetMesh};
+use crate::mesh::{Incidence, SimplexIndex, TetId, TetMesh};
 use crate::plc::Plc;
 use crate::predicate::PointStore;
 
@@ -19,20 +17,20 @@ pub struct DomainMarks {
     pub region: Vec<f64>,
 }
 
-/// Divides the mesh. With `keep_hull` everything in the convex hull is kept. Linear time.
+/// Divides the mesh at `walls`, the subpolygons. With `keep_hull` everything in the convex hull is kept. Linear time.
 ///
 /// # Errors
 /// If a hole point or region point lies on a facet, or two region points disagree on one region.
-pub fn mark_domain<P: PointStore>(
+pub(crate) fn mark_domain<P: PointStore>(
     plc: &Plc,
     points: &mut P,
     mesh: &TetMesh,
-    subpolygons: &Subpolygons,
+    walls: &SimplexIndex<2>,
     keep_hull: bool,
 ) -> Result<DomainMarks, InvalidPlc> {
     let mut flood = Flood {
         mesh,
-        subpolygons,
+        walls,
         component: vec![u32::MAX; mesh.capacity()],
     };
     let mut kept_component = vec![keep_hull];
@@ -45,8 +43,9 @@ pub fn mark_domain<P: PointStore>(
         }
     }
     let component = flood.component;
+    let mut near = mesh.finite().next();
     let mut find = |kind, index, point| {
-        locate(points, mesh, subpolygons, point)
+        locate(points, mesh, walls, &mut near, point)
             .map_err(|OnPolygon| InvalidPlc::PointOnPolygon { kind, index })
     };
     let holes: &[[f64; 3]] = if keep_hull { &[] } else { &plc.holes };
@@ -93,7 +92,7 @@ pub fn mark_domain<P: PointStore>(
 
 struct Flood<'a> {
     mesh: &'a TetMesh,
-    subpolygons: &'a Subpolygons,
+    walls: &'a SimplexIndex<2>,
     component: Vec<u32>,
 }
 
@@ -107,7 +106,7 @@ impl Flood<'_> {
                 let c = t.corner(slot);
                 let n = self.mesh.neighbor(c);
                 if self.component[n.index()] == u32::MAX
-                    && !self.subpolygons.contains_key(&face(self.mesh.facet(c)))
+                    && self.walls.triangle(self.mesh.facet(c)).is_none()
                 {
                     self.component[n.index()] = id;
                     stack.push(n);
@@ -120,12 +119,17 @@ impl Flood<'_> {
 /// The point lies on a polygon, so it names no part of space.
 struct OnPolygon;
 
-/// A finite tetrahedron that contains the point, if it is in the convex hull. A walk, which need not end in a
-/// constrained tetrahedralization, then a search of all tetrahedra.
+/// The most steps of a walk.
+const MOST_STEPS: usize = 1000;
+
+/// A finite tetrahedron that contains the point, if it is in the convex hull. A walk from `near`, which need not end in a
+/// constrained tetrahedralization. If it does not, or if the point is in no interior, a walk from the first tetrahedron, then
+/// a search of all.
 fn locate<P: PointStore>(
     points: &mut P,
     mesh: &TetMesh,
-    subpolygons: &Subpolygons,
+    walls: &SimplexIndex<2>,
+    near: &mut Option<TetId>,
     point: [f64; 3],
 ) -> Result<Option<TetId>, OnPolygon> {
     let n = points.len();
@@ -138,10 +142,23 @@ fn locate<P: PointStore>(
             points.orient3d(moved)
         })
     };
+    let mut at = *near;
+    for _ in 0..MOST_STEPS {
+        let Some(t) = at else { break };
+        if let Some(slot) = points.facet_towards(mesh.vertices(t), p) {
+            at = Some(mesh.neighbor(t.corner(slot))).filter(|&n| !mesh.is_ghost(n));
+        } else if sides(t).iter().all(|s| s.is_positive()) {
+            *near = at;
+            points.truncate(n);
+            return Ok(at);
+        } else {
+            break;
+        }
+    }
     let outward = |t: TetId| sides(t).iter().position(|s| s.is_negative());
     let mut found = None;
     let mut at = mesh.finite().next();
-    for _ in 0..1000 {
+    for _ in 0..MOST_STEPS {
         let Some(t) = at else { break };
         match outward(t) {
             None => {
@@ -154,9 +171,7 @@ fn locate<P: PointStore>(
     let found = found.or_else(|| mesh.finite().find(|&t| outward(t).is_none()));
     let on_polygon = found.is_some_and(|t| {
         let on_facet = sides(t).map(|s| s.is_zero());
-        (0..4).any(|slot| {
-            on_facet[slot] && subpolygons.contains_key(&face(mesh.facet(t.corner(slot))))
-        })
+        (0..4).any(|slot| on_facet[slot] && walls.triangle(mesh.facet(t.corner(slot))).is_some())
     });
     points.truncate(n);
     if on_polygon {

@@ -17,22 +17,54 @@
 //!
 //! All of it is combinatorial, hence exact. O(k log k) for k triangles on polygons.
 
-use super::polygons::{Subpolygons, boundary_subsegments};
+use super::cavity::Face;
+use super::polygons::Subpolygons;
 use super::segments::{SegmentIndex, Subsegments};
 use crate::error::InvalidPlc;
-use crate::mesh::VertexId;
+use crate::mesh::{Groups, VertexId};
 use crate::plc::Complex;
 
-/// An edge with a triangle of a polygon at it, or with a side of a polygon that it bounds.
+/// An edge, by its greater end, with a triangle of a polygon at it, or with a side of a polygon that it bounds; as one number,
+/// for sorting.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
-    edge: [VertexId; 2],
-    polygon: u32,
+struct Side(u64);
+
+impl Side {
+    fn new(end: VertexId, polygon: u32, bounds: bool) -> Side {
+        Side(u64::from(end.0) << 32 | u64::from(polygon << 1 | u32::from(bounds)))
+    }
+
+    fn end(self) -> VertexId {
+        VertexId((self.0 >> 32) as u32)
+    }
+
+    fn polygon(self) -> u32 {
+        self.0 as u32 >> 1
+    }
+
     /// Whether it comes from the boundary, not from a triangle.
-    bounds: bool,
+    fn bounds(self) -> bool {
+        self.0 & 1 == 1
+    }
 }
 
-/// Looks for polygons, of those `inserted`, that intersect.
+/// What polygons consist of.
+struct Parts {
+    /// The directed subsegments that bound each polygon, one after the other, and where those of each one end.
+    boundary: Vec<[VertexId; 2]>,
+    ends: Vec<usize>,
+    /// The triangles of all polygons, in no order.
+    triangles: Vec<(Face, u32)>,
+}
+
+impl Parts {
+    fn boundary_of(&self, f: usize) -> &[[VertexId; 2]] {
+        let start = f.checked_sub(1).map_or(0, |g| self.ends[g]);
+        &self.boundary[start..self.ends[f]]
+    }
+}
+
+/// Looks for polygons, of those `inserted`, that intersect. `n` is the number of vertices.
 ///
 /// # Errors
 /// The first intersection in the order of the vertices.
@@ -40,96 +72,117 @@ pub fn check_embedding(
     complex: &Complex,
     subsegments: &Subsegments,
     index: &SegmentIndex,
-    subpolygons: &Subpolygons,
+    (subpolygons, n): (&Subpolygons, usize),
     inserted: &[bool],
 ) -> Result<(), InvalidPlc> {
-    let mut sides = Vec::with_capacity(6 * subpolygons.len());
-    for (f, polygon) in complex.polygons.iter().enumerate() {
-        if inserted[f] {
-            let boundary = boundary_subsegments(subsegments, index, polygon);
-            sides.extend(boundary.into_iter().map(|[a, b]| Side {
-                edge: [a.min(b), a.max(b)],
-                polygon: f as u32,
-                bounds: true,
-            }));
-        }
-    }
+    assert!(complex.polygons.len() < 1 << 31, "fewer than 2^31 polygons");
     // The order of the table does not matter: what comes of it is sorted.
-    for (&[a, b, c], &polygon) in subpolygons {
-        for edge in [[a, b], [a, c], [b, c]] {
-            let bounds = false;
-            sides.push(Side {
-                edge,
-                polygon,
-                bounds,
-            });
+    let mut parts = Parts {
+        boundary: Vec::with_capacity(3 * complex.polygons.len()),
+        ends: Vec::with_capacity(complex.polygons.len()),
+        triangles: subpolygons.iter().map(|(&t, &f)| (t, f)).collect(),
+    };
+    for (polygon, inserted) in complex.polygons.iter().zip(inserted) {
+        if *inserted {
+            subsegments.append_boundary(index, polygon, &mut parts.boundary);
         }
+        parts.ends.push(parts.boundary.len());
     }
-    sides.sort_unstable();
+    check_edges(complex, subsegments, &parts, n)?;
+    check_vertices(complex, subsegments, &parts, n)
+}
+
+/// Whether the edges of the polygons' triangles are theirs alone, but for the boundary.
+fn check_edges(
+    complex: &Complex,
+    subsegments: &Subsegments,
+    parts: &Parts,
+    n: usize,
+) -> Result<(), InvalidPlc> {
+    let bounds = (0..complex.polygons.len()).flat_map(|f| {
+        let edges = parts.boundary_of(f).iter();
+        edges.map(move |&[a, b]| (a.min(b), Side::new(a.max(b), f as u32, true)))
+    });
+    let inner = parts.triangles.iter().flat_map(|&([a, b, c], f)| {
+        let edges = [[a, b], [a, c], [b, c]];
+        edges.map(|[a, b]| (a, Side::new(b, f, false)))
+    });
+    let mut sides = Groups::new(n, bounds.chain(inner));
+    sides.sort_groups(|&side| side);
     let facets = |f: u32| complex.polygons[f as usize].facets.clone();
-    for at_edge in sides.chunk_by(|s, t| s.edge == t.edge) {
-        let edge = at_edge[0].edge;
-        // Polygons that are there by their boundary or by triangles.
-        let first = at_edge[0].polygon;
-        let other = |f: u32| at_edge.iter().map(|s| s.polygon).find(|&g| g != f);
-        for of_polygon in at_edge.chunk_by(|s, t| s.polygon == t.polygon) {
-            let f = of_polygon[0].polygon;
-            let bounds = of_polygon.iter().filter(|s| s.bounds).count();
-            let triangles = of_polygon.len() - bounds;
-            let wanted = if bounds > 0 { bounds } else { 2 };
-            if triangles != wanted {
-                return Err(InvalidPlc::PolygonsIntersect {
-                    first: facets(f),
-                    second: facets(other(f).unwrap_or(f)),
-                });
-            }
-            if bounds > 0 {
-                continue;
-            }
-            if let Some(s) = subsegments.segment_of(edge[0], edge[1]) {
-                return Err(InvalidPlc::SegmentThroughPolygon {
-                    facets: facets(f),
-                    segment: complex.segments[s as usize].ends,
-                });
-            }
-            if let Some(g) = other(first).map(|g| if g == f { first } else { g }) {
-                return Err(InvalidPlc::PolygonsIntersect {
-                    first: facets(f.min(g)),
-                    second: facets(f.max(g)),
-                });
+    for least in (0..n).map(VertexId::new) {
+        for at_edge in sides.of(least).chunk_by(|s, t| s.end() == t.end()) {
+            let edge = [least, at_edge[0].end()];
+            // Polygons that are there by their boundary or by triangles.
+            let first = at_edge[0].polygon();
+            let other = |f: u32| at_edge.iter().map(|s| s.polygon()).find(|&g| g != f);
+            for of_polygon in at_edge.chunk_by(|s, t| s.polygon() == t.polygon()) {
+                let f = of_polygon[0].polygon();
+                let bounds = of_polygon.iter().filter(|s| s.bounds()).count();
+                let triangles = of_polygon.len() - bounds;
+                let wanted = if bounds > 0 { bounds } else { 2 };
+                if triangles != wanted {
+                    return Err(InvalidPlc::PolygonsIntersect {
+                        first: facets(f),
+                        second: facets(other(f).unwrap_or(f)),
+                    });
+                }
+                if bounds > 0 {
+                    continue;
+                }
+                if let Some(s) = subsegments.segment_of(edge[0], edge[1]) {
+                    return Err(InvalidPlc::SegmentThroughPolygon {
+                        facets: facets(f),
+                        segment: complex.segments[s as usize].ends,
+                    });
+                }
+                if let Some(g) = other(first).map(|g| if g == f { first } else { g }) {
+                    return Err(InvalidPlc::PolygonsIntersect {
+                        first: facets(f.min(g)),
+                        second: facets(f.max(g)),
+                    });
+                }
             }
         }
     }
-    check_vertices(complex, subsegments, &sides)
+    Ok(())
 }
 
 /// Whether the vertices of the polygons' triangles are theirs.
 fn check_vertices(
     complex: &Complex,
     subsegments: &Subsegments,
-    sides: &[Side],
+    parts: &Parts,
+    n: usize,
 ) -> Result<(), InvalidPlc> {
-    // Steiner points on the segments of a polygon are ends of its boundary's subsegments.
-    let ends = |s: &Side| s.edge.map(|v| (s.polygon, v));
-    let mut own: Vec<(u32, VertexId)> = sides.iter().filter(|s| s.bounds).flat_map(ends).collect();
-    let mut all: Vec<(u32, VertexId)> = sides.iter().filter(|s| !s.bounds).flat_map(ends).collect();
-    for list in [&mut own, &mut all] {
-        list.sort_unstable();
-        list.dedup();
+    let polygons = complex.polygons.len();
+    let triangles = parts.triangles.iter();
+    // Polygons take the place of vertices here.
+    let by_polygon = Groups::new(polygons, triangles.map(|&(t, f)| (VertexId(f), t)));
+    // The last polygon that each vertex was found to belong to.
+    let mut owner = vec![u32::MAX; n];
+    for f in 0..polygons {
+        let triangles = by_polygon.of(VertexId::new(f));
+        if triangles.is_empty() {
+            continue;
+        }
+        // Steiner points on the segments of a polygon are ends of its boundary's subsegments.
+        let ends = parts.boundary_of(f).iter().flatten();
+        for v in ends.chain(&complex.polygons[f].vertices) {
+            owner[v.index()] = f as u32;
+        }
+        let foreign = triangles.iter().flatten().copied();
+        let Some(vertex) = foreign.filter(|v| owner[v.index()] != f as u32).min() else {
+            continue;
+        };
+        let facets = complex.polygons[f].facets.clone();
+        return Err(match subsegments.segment_of_steiner(vertex) {
+            Some(s) => InvalidPlc::SegmentThroughPolygon {
+                facets,
+                segment: complex.segments[s as usize].ends,
+            },
+            None => InvalidPlc::VertexOnPolygon { facets, vertex },
+        });
     }
-    let is_own = |item: &(u32, VertexId)| {
-        let polygon = &complex.polygons[item.0 as usize];
-        own.binary_search(item).is_ok() || polygon.vertices.binary_search(&item.1).is_ok()
-    };
-    let Some(&(f, vertex)) = all.iter().find(|item| !is_own(item)) else {
-        return Ok(());
-    };
-    let facets = complex.polygons[f as usize].facets.clone();
-    Err(match subsegments.segment_of_steiner(vertex) {
-        Some(s) => InvalidPlc::SegmentThroughPolygon {
-            facets,
-            segment: complex.segments[s as usize].ends,
-        },
-        None => InvalidPlc::VertexOnPolygon { facets, vertex },
-    })
+    Ok(())
 }

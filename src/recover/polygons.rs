@@ -497,13 +497,9 @@ pub(super) fn boundary_subsegments(
     index: &SegmentIndex,
     f: &Polygon,
 ) -> Vec<[VertexId; 2]> {
-    let chains = f
-        .edges
-        .iter()
-        .map(|&[a, b]| subsegments.chain_between(index, a, b));
-    chains
-        .flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>())
-        .collect()
+    let mut boundary = Vec::with_capacity(f.edges.len());
+    subsegments.append_boundary(index, f, &mut boundary);
+    boundary
 }
 
 /// The tetrahedra whose vertices are all on f: none if that is flat.

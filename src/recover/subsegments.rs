@@ -5,7 +5,7 @@
 //! look-up, and a division changes four links. Pairs of vertices of the input, and only those, are searched for in a table.
 
 use crate::mesh::VertexId;
-use crate::plc::Complex;
+use crate::plc::{Complex, Polygon};
 use crate::predicate::{Parameter, PointStore};
 use std::sync::Arc;
 
@@ -126,15 +126,23 @@ impl Subsegments {
         })
     }
 
-    /// The vertices of the segment ab of the input, from a to b; a and b alone if they are not the ends of one: then ab is
-    /// an edge of a polygon that has been cut.
-    pub fn chain_between(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> Vec<VertexId> {
-        let Some(s) = index.find(a, b).filter(|&s| self.vertices_on(s) > 2) else {
-            return vec![a, b];
-        };
-        let mut chain = Vec::with_capacity(self.vertices_on(s));
-        chain.extend(self.walk(s, usize::from(self.ends(s)[0] != a)));
-        chain
+    /// Appends the directed subsegments that bound a polygon, edge by edge. An edge that is no segment of the input is there
+    /// itself: it is an edge of a polygon that has been cut.
+    pub(super) fn append_boundary(
+        &self,
+        index: &SegmentIndex,
+        polygon: &Polygon,
+        boundary: &mut Vec<[VertexId; 2]>,
+    ) {
+        for &[a, b] in &polygon.edges {
+            let Some(s) = index.find(a, b).filter(|&s| self.vertices_on(s) > 2) else {
+                boundary.push([a, b]);
+                continue;
+            };
+            let mut chain = self.walk(s, usize::from(self.ends(s)[0] != a));
+            let mut last = chain.next().expect("a chain has two ends");
+            boundary.extend(chain.map(|v| [std::mem::replace(&mut last, v), v]));
+        }
     }
 
     /// How many Steiner points there are.
@@ -358,13 +366,24 @@ mod tests {
             let mut expected = FxHashMap::default();
             for (s, list) in lists.iter().enumerate() {
                 assert_eq!(&subsegments.chain(s as u32).collect::<Vec<_>>(), list);
-                let [a, b] = complex.segments[s].ends;
+                let polygon = Polygon {
+                    edges: vec![
+                        complex.segments[s].ends,
+                        [VertexId::new(9), VertexId::new(30)],
+                    ],
+                    vertices: Vec::new(),
+                    frame: [VertexId::new(0); 3],
+                    flat: true,
+                    facets: Vec::new(),
+                    marker: 0,
+                };
+                let mut boundary = Vec::new();
+                subsegments.append_boundary(subsegments.index(), &polygon, &mut boundary);
+                let mut steps: Vec<_> = list.windows(2).map(|w| [w[0], w[1]]).collect();
+                steps.push(polygon.edges[1]);
+                assert_eq!(boundary, steps);
                 let backwards: Vec<VertexId> = list.iter().rev().copied().collect();
-                assert_eq!(
-                    subsegments.chain_between(subsegments.index(), b, a),
-                    backwards
-                );
-                assert_eq!(subsegments.chain_between(subsegments.index(), a, b), *list);
+                assert_eq!(subsegments.walk(s as u32, 1).collect::<Vec<_>>(), backwards);
                 expected.extend(list.windows(2).map(|w| (key(w[0], w[1]), s as u32)));
             }
             let n = 40 + subsegments.steiner_count();

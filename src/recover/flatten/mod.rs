@@ -14,23 +14,28 @@
 //! [`MOST_ROUNDS`] and [`MOST_POINTS`]. Beyond those nothing is inserted, and polygons that cannot be cut are left to the
 //! insertion of polygons as they are, which treats their vertices as if they were on one plane, and may refuse them.
 
+mod cells;
+mod crossings;
 mod cut;
+mod figure;
+mod neighbours;
 mod plane;
 pub mod shims;
 mod steiner;
 
-use super::polygons::boundary_subsegments;
 use super::segments::{Request, SegmentIndex, Subsegments, add_steiner_points};
 use crate::delaunay::Delaunay;
-use crate::mesh::{Incidence, TetMesh, VertexId};
+use crate::mesh::{Groups, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
 use crate::predicate::PointStore;
 use cut::Cut;
-use plane::Plane;
-use rustc_hash::FxHashSet;
+use figure::Figure;
+use neighbours::Neighbours;
+use rustc_hash::{FxHashMap, FxHashSet};
 use serde::Serialize;
 use shims::ShimCounts;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// How often Steiner points are inserted and polygons are cut again.
 pub const MOST_ROUNDS: usize = 200;
@@ -63,8 +68,8 @@ pub struct FlatteningCounts {
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {
     /// The segments of the complex, and all pieces: polygons that were flat as they are, and the pieces of the others, whose
-    /// edges are edges of the mesh.
-    pub complex: Complex,
+    /// edges are edges of the mesh. The complex itself if nothing had to be cut.
+    pub complex: Arc<Complex>,
     /// The first piece of each polygon, and the number of pieces at the end.
     first: Vec<usize>,
     /// Which polygons are not flat.
@@ -102,20 +107,35 @@ impl Pieces {
 
 /// What the polygons of a complex are made of at the moment.
 struct State<'a> {
-    complex: &'a Complex,
+    complex: &'a Arc<Complex>,
     index: &'a SegmentIndex,
     /// The pieces of polygons that are not flat.
-    cuts: Vec<Option<Cut>>,
+    cuts: Vec<Option<Box<Cut>>>,
+    /// The polygons with cells that are not flat, ascending.
+    bad: Vec<usize>,
     inner: Vec<Vec<VertexId>>,
-    /// All vertices of each polygon when it was last looked at. A Steiner point on its boundary touches those beside it, so
-    /// that a polygon with none that is touched is as it was.
-    vertices: Vec<Vec<VertexId>>,
+    neighbours: Neighbours,
+    /// The polygons of each vertex, once that is of interest.
+    polygons_at: Option<PolygonsAt>,
+    /// Memory used again.
+    boundary: Vec<[VertexId; 2]>,
+    vertices: Vec<VertexId>,
+}
+
+/// On which polygons each vertex is. A Steiner point on the boundary of a polygon touches those beside it, so that a polygon
+/// with no vertex that is touched is as it was.
+struct PolygonsAt {
+    /// Those of the vertices when the first Steiner point was inserted; polygons keep all vertices that they have.
+    before: Groups<u32>,
+    first_new: usize,
+    /// Those of later Steiner points.
+    new: FxHashMap<VertexId, Vec<u32>>,
 }
 
 /// Cuts all polygons that are not flat, inserting Steiner points where that is impossible. If it would take too many of
 /// those, none is inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]).
 pub fn flatten<P: PointStore>(
-    complex: &Complex,
+    complex: &Arc<Complex>,
     index: &SegmentIndex,
     points: &mut P,
     delaunay: &mut Delaunay,
@@ -128,18 +148,23 @@ pub fn flatten<P: PointStore>(
         complex,
         index,
         cuts: vec![None; n],
+        bad: Vec::new(),
         inner: vec![Vec::new(); n],
-        vertices: vec![Vec::new(); n],
+        neighbours: Neighbours::default(),
+        polygons_at: None,
+        boundary: Vec::new(),
+        vertices: Vec::new(),
     };
-    let mut requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), None);
-    if requests.is_empty() && !state.has_bad() {
+    let mut requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), 0..n);
+    if state.bad.is_empty() {
         return state.collect(counts);
     }
     let before = points.len();
     let most = before + MOST_POINTS + before / 4;
     let saved = (delaunay.clone(), subsegments.clone(), incidence.clone());
+    state.polygons_at = Some(state.polygons_at(subsegments, before));
     let mut refined = FlatteningCounts::default();
-    while state.has_bad() {
+    while !state.bad.is_empty() {
         let positions: Vec<Request> = requests.iter().map(|r| r.1).collect();
         let added = add_steiner_points(&positions, points, delaunay, subsegments, incidence);
         let added = added.ok().filter(|added| {
@@ -150,7 +175,9 @@ pub fn flatten<P: PointStore>(
             (*delaunay, *subsegments, *incidence) = saved;
             points.truncate(before);
             state.inner = vec![Vec::new(); n];
-            state.cut_all(points, &delaunay.mesh, (subsegments, incidence), None);
+            state.neighbours = Neighbours::default();
+            state.polygons_at = None;
+            state.cut_all(points, &delaunay.mesh, (subsegments, incidence), 0..n);
             return state.collect(counts);
         };
         refined.rounds += 1;
@@ -164,53 +191,112 @@ pub fn flatten<P: PointStore>(
                 Request::Split(_) => refined.points_on_segments += 1,
             }
         }
-        let touched = Some(&added.touched);
-        requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), touched);
+        state.neighbours.forget(&added.touched);
+        let again = state.bad_or_at(&added.touched).into_iter();
+        requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), again);
     }
     *counts = refined;
     state.collect(counts)
 }
 
 impl State<'_> {
-    /// Cuts all polygons that are not flat, or those with touched vertices only, and returns the Steiner points that they
-    /// want.
+    /// Cuts those of the given polygons, in ascending order, that are not flat, and returns the Steiner points that they
+    /// want. All polygons that have cells that are not flat must be among them.
     fn cut_all<P: PointStore>(
         &mut self,
         points: &P,
         mesh: &TetMesh,
         (subsegments, incidence): (&Subsegments, &Incidence),
-        touched: Option<&FxHashSet<VertexId>>,
+        polygons: impl Iterator<Item = usize>,
     ) -> Vec<(usize, Request)> {
         let mut requests = Vec::new();
-        for (f, polygon) in self.complex.polygons.iter().enumerate() {
-            let is_touched =
-                |t: &FxHashSet<VertexId>| self.vertices[f].iter().any(|v| t.contains(v));
-            let is_bad = self.cuts[f].as_ref().is_some_and(|cut| !cut.bad.is_empty());
-            if !is_bad && !touched.is_none_or(is_touched) {
-                continue;
-            }
-            let boundary = boundary_subsegments(subsegments, self.index, polygon);
-            self.vertices[f] = vertices(polygon, &boundary, &self.inner[f]);
+        self.bad.clear();
+        for f in polygons {
+            let polygon = &self.complex.polygons[f];
+            self.look_at(f, subsegments);
             self.cuts[f] = None;
-            if is_flat(points, polygon, &self.vertices[f]) {
+            if is_flat(points, polygon, &self.vertices) {
                 continue;
             }
-            let of_f = (&boundary[..], &self.vertices[f][..]);
+            let figure = Figure::new(points, polygon, (&self.boundary, &self.vertices));
             let constraints = (subsegments, self.index);
-            let cut = cut::cut(points, mesh, incidence, constraints, polygon, of_f);
-            let wanted = wanted(points, polygon, &cut, &boundary);
-            requests.extend(wanted.into_iter().map(|request| (f, request)));
-            self.cuts[f] = Some(cut);
+            let around = (mesh, incidence, &mut self.neighbours);
+            let cut = cut::cut(&figure, polygon, around, constraints);
+            if !cut.bad.is_empty() {
+                self.bad.push(f);
+                let wanted = wanted(&figure, polygon, &cut);
+                requests.extend(wanted.into_iter().map(|request| (f, request)));
+            }
+            self.cuts[f] = Some(Box::new(cut));
         }
         requests
     }
 
-    fn has_bad(&self) -> bool {
-        self.cuts.iter().flatten().any(|cut| !cut.bad.is_empty())
+    /// Finds the boundary of polygon f and all its vertices, sorted.
+    fn look_at(&mut self, f: usize, subsegments: &Subsegments) {
+        let polygon = &self.complex.polygons[f];
+        self.boundary.clear();
+        subsegments.append_boundary(self.index, polygon, &mut self.boundary);
+        self.vertices.clear();
+        self.vertices.extend(&polygon.vertices);
+        if self.boundary.len() > polygon.edges.len() || !self.inner[f].is_empty() {
+            let ends = self.boundary.iter().flatten();
+            self.vertices.extend(ends.chain(&self.inner[f]));
+            self.vertices.sort_unstable();
+            self.vertices.dedup();
+        }
+        if let Some(at) = &mut self.polygons_at {
+            let new = self.vertices.partition_point(|v| v.index() < at.first_new);
+            for &v in &self.vertices[new..] {
+                let polygons = at.new.entry(v).or_default();
+                if !polygons.contains(&(f as u32)) {
+                    polygons.push(f as u32);
+                }
+            }
+        }
+    }
+
+    /// The polygons of each vertex, of which there are n.
+    fn polygons_at(&mut self, subsegments: &Subsegments, n: usize) -> PolygonsAt {
+        let mut pairs: Vec<(VertexId, u32)> = Vec::new();
+        for f in 0..self.complex.polygons.len() {
+            self.look_at(f, subsegments);
+            pairs.extend(self.vertices.iter().map(|&v| (v, f as u32)));
+        }
+        PolygonsAt {
+            before: Groups::new(n, pairs.iter().copied()),
+            first_new: n,
+            new: FxHashMap::default(),
+        }
+    }
+
+    /// The polygons with cells that are not flat, and those with vertices that have been touched; ascending.
+    fn bad_or_at(&self, touched: &FxHashSet<VertexId>) -> Vec<usize> {
+        let at = self
+            .polygons_at
+            .as_ref()
+            .expect("it is found before the first round");
+        let mut again = self.bad.clone();
+        for v in touched {
+            let before = at.before.of(*v).iter();
+            let new = at.new.get(v).into_iter().flatten();
+            again.extend(before.chain(new).map(|&f| f as usize));
+        }
+        again.sort_unstable();
+        again.dedup();
+        again
     }
 
     fn collect(self, counts: &mut FlatteningCounts) -> Pieces {
         let n = self.cuts.len();
+        if self.cuts.iter().all(Option::is_none) {
+            return Pieces {
+                complex: Arc::clone(self.complex),
+                first: (0..=n).collect(),
+                was_cut: vec![false; n],
+                inner: self.inner,
+            };
+        }
         let mut polygons = Vec::with_capacity(n);
         let mut first = Vec::with_capacity(n + 1);
         let was_cut = self.cuts.iter().map(Option::is_some).collect();
@@ -232,12 +318,12 @@ impl State<'_> {
         }
         first.push(polygons.len());
         Pieces {
-            complex: Complex {
+            complex: Arc::new(Complex {
                 representative: Vec::new(),
                 segments: self.complex.segments.clone(),
                 diagonals: self.complex.diagonals,
                 polygons,
-            },
+            }),
             first,
             was_cut,
             inner: self.inner,
@@ -245,39 +331,23 @@ impl State<'_> {
     }
 }
 
-/// All vertices of a polygon, sorted.
-fn vertices(polygon: &Polygon, boundary: &[[VertexId; 2]], inner: &[VertexId]) -> Vec<VertexId> {
-    let ends = boundary.iter().flatten();
-    let mut vertices: Vec<VertexId> = polygon
-        .vertices
-        .iter()
-        .chain(ends)
-        .chain(inner)
-        .copied()
-        .collect();
-    vertices.sort_unstable();
-    vertices.dedup();
-    vertices
-}
-
+/// Whether all vertices of a polygon, sorted, those on its boundary and inside it included, are exactly on one plane.
 fn is_flat<P: PointStore>(points: &P, polygon: &Polygon, vertices: &[VertexId]) -> bool {
     let [a, b, c] = polygon.frame;
-    let mut others = vertices.iter().filter(|v| !polygon.frame.contains(v));
-    others.all(|&v| points.orient3d([a, b, c, v]).is_zero())
+    let on_plane = |v: &VertexId| points.orient3d([a, b, c, *v]).is_zero();
+    // Its own vertices are no others.
+    let own = &polygon.vertices;
+    let mut added = vertices.iter().filter(|v| own.binary_search(v).is_err());
+    polygon.flat && (vertices.len() == own.len() || added.all(on_plane))
 }
 
 /// The Steiner points that the cells of a polygon want, without those that come close to others.
-fn wanted<P: PointStore>(
-    points: &P,
-    polygon: &Polygon,
-    cut: &Cut,
-    boundary: &[[VertexId; 2]],
-) -> Vec<Request> {
-    let plane = Plane::new(points, polygon.frame);
+fn wanted<P: PointStore>(figure: &Figure<P>, polygon: &Polygon, cut: &Cut) -> Vec<Request> {
+    let (points, plane, boundary) = (figure.points, &figure.plane, figure.boundary);
     let mut taken: Vec<(Request, f64)> = Vec::new();
     for cell in &cut.bad {
         let Some((request, radius)) =
-            steiner::for_cell(points, &plane, cell, boundary, polygon.frame)
+            steiner::for_cell(points, plane, cell, boundary, polygon.frame)
         else {
             continue;
         };

@@ -6,6 +6,7 @@
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign};
 use crate::predicate::PointStore;
+use crate::predicate::coordinates::{dot2d, largest, normal_axis, orient2d};
 use std::cmp::Ordering;
 
 /// The projection of a polygon.
@@ -18,20 +19,16 @@ pub(super) struct Plane<'a, P> {
 impl<'a, P: PointStore> Plane<'a, P> {
     /// The projection of a polygon whose frame is not collinear.
     pub(super) fn new(points: &'a P, frame: [VertexId; 3]) -> Plane<'a, P> {
-        let [a, b, c] = frame.map(|v| points.coordinates::<Dyadic>(v));
-        let normal = b.sub(&a).cross(&c.sub(&a)).0;
-        let size = |k: usize| match normal[k].exact_sign() {
-            Sign::Negative => Dyadic::ZERO - &normal[k],
-            _ => normal[k].clone(),
+        let of_doubles = match frame.map(|v| points.doubles(v)) {
+            [Some(a), Some(b), Some(c)] => normal_axis([a, b, c]),
+            _ => None,
         };
-        let mut dropped = 0;
-        for k in [1, 2] {
-            if (size(k) - &size(dropped)).exact_sign().is_positive() {
-                dropped = k;
-            }
-        }
+        let (dropped, sign) = of_doubles.unwrap_or_else(|| {
+            let [a, b, c] = frame.map(|v| points.coordinates::<Dyadic>(v));
+            largest(&b.sub(&a).cross(&c.sub(&a)))
+        });
         let mut axes = [(dropped + 1) % 3, (dropped + 2) % 3];
-        if normal[dropped].exact_sign().is_negative() {
+        if sign.is_negative() {
             axes.swap(0, 1);
         }
         Plane { points, axes }
@@ -39,6 +36,13 @@ impl<'a, P: PointStore> Plane<'a, P> {
 
     fn decide(&self, approx: Approx, exact: impl FnOnce() -> Dyadic) -> Sign {
         approx.sign().unwrap_or_else(|| exact().exact_sign())
+    }
+
+    /// Where v is, if its coordinates are doubles.
+    #[inline]
+    fn at(&self, v: VertexId) -> Option<[f64; 2]> {
+        let p = self.points.doubles(v)?;
+        Some([p[self.axes[0]], p[self.axes[1]]])
     }
 
     fn difference<N: Number>(&self, a: VertexId, b: VertexId) -> [N; 2] {
@@ -50,7 +54,15 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     /// Positive iff abc turns left.
+    #[inline]
     pub(super) fn turn(&self, a: VertexId, b: VertexId, c: VertexId) -> Sign {
+        match (self.at(a), self.at(b), self.at(c)) {
+            (Some(a), Some(b), Some(c)) => orient2d([a, b, c]),
+            _ => self.turn_of_any(a, b, c),
+        }
+    }
+
+    fn turn_of_any(&self, a: VertexId, b: VertexId, c: VertexId) -> Sign {
         fn value<N: Number>([p, q]: [[N; 2]; 2]) -> N {
             let [[px, py], [qx, qy]] = [p, q];
             px * &qy - &(py * &qx)
@@ -66,6 +78,9 @@ impl<'a, P: PointStore> Plane<'a, P> {
         fn value<N: Number>([[px, py], [qx, qy]]: [[N; 2]; 2]) -> N {
             px * &qx + &(py * &qy)
         }
+        if let (Some(a), Some(b), Some(c)) = (self.at(a), self.at(b), self.at(c)) {
+            return dot2d([a, b, c]).is_positive();
+        }
         let both = [self.difference::<Approx>(a, b), self.difference(a, c)];
         let sign = self.decide(value(both), || {
             value([self.difference(a, b), self.difference(a, c)])
@@ -73,32 +88,53 @@ impl<'a, P: PointStore> Plane<'a, P> {
         sign.is_positive()
     }
 
-    /// The order of the directions from v to p and q, counterclockwise from the direction to `first`, which is the least.
-    pub(super) fn around(
+    /// Of several points, the one whose direction from v is the last one counterclockwise from the direction to `first`, which
+    /// is the least; the last of them if several directions are.
+    pub(super) fn last_around<T>(
         &self,
         v: VertexId,
         first: VertexId,
-        p: VertexId,
-        q: VertexId,
-    ) -> Ordering {
-        let quarter = |p: VertexId| match self.turn(v, first, p) {
-            Sign::Zero if p == first || self.ahead(v, first, p) => 0,
-            Sign::Positive => 1,
-            Sign::Zero => 2,
-            Sign::Negative => 3,
+        targets: impl Iterator<Item = (VertexId, T)>,
+    ) -> Option<(VertexId, T)> {
+        let mut targets = targets.peekable();
+        let mut last = targets.next()?;
+        if targets.peek().is_none() {
+            return Some(last);
+        }
+        let quarter = |p: VertexId| {
+            if p == first {
+                return 0;
+            }
+            match self.turn(v, first, p) {
+                Sign::Zero if self.ahead(v, first, p) => 0,
+                Sign::Positive => 1,
+                Sign::Zero => 2,
+                Sign::Negative => 3,
+            }
         };
-        let (quarter_p, quarter_q) = (quarter(p), quarter(q));
-        quarter_p
-            .cmp(&quarter_q)
-            .then_with(|| match self.turn(v, p, q) {
-                Sign::Positive if quarter_p % 2 == 1 => Ordering::Less,
-                Sign::Negative if quarter_p % 2 == 1 => Ordering::Greater,
-                _ => Ordering::Equal,
-            })
+        let mut its_quarter = quarter(last.0);
+        for target in targets {
+            let of_target = quarter(target.0);
+            let is_before = match its_quarter.cmp(&of_target) {
+                Ordering::Equal if of_target % 2 == 1 => {
+                    self.turn(v, last.0, target.0).is_negative()
+                }
+                order => order.is_gt(),
+            };
+            if !is_before {
+                (last, its_quarter) = (target, of_target);
+            }
+        }
+        Some(last)
     }
 
     /// Whether v is on the open segment pq.
     pub(super) fn is_between(&self, p: VertexId, q: VertexId, v: VertexId) -> bool {
+        if let (Some(p), Some(q), Some(v)) = (self.at(p), self.at(q), self.at(v))
+            && (0..2).any(|k| v[k] < p[k].min(q[k]) || v[k] > p[k].max(q[k]))
+        {
+            return false;
+        }
         v != p
             && v != q
             && self.turn(p, q, v).is_zero()
@@ -106,9 +142,11 @@ impl<'a, P: PointStore> Plane<'a, P> {
             && self.ahead(q, p, v)
     }
 
-    /// Whether two segments without a common end have a common inner point.
+    /// Whether two segments cross: have one common inner point.
     pub(super) fn cross(&self, [p, q]: [VertexId; 2], [s, t]: [VertexId; 2]) -> bool {
-        (self.turn(p, q, s) * self.turn(p, q, t)).is_negative()
+        let share = p == s || p == t || q == s || q == t;
+        !share
+            && (self.turn(p, q, s) * self.turn(p, q, t)).is_negative()
             && (self.turn(s, t, p) * self.turn(s, t, q)).is_negative()
     }
 
@@ -133,7 +171,10 @@ impl<'a, P: PointStore> Plane<'a, P> {
                 sum + &(px * &qy - &(py * &qx))
             })
         }
-        self.decide(value(self, walk), || value(self, walk))
+        match *walk {
+            [[a, b], [_, c], [_, d]] if d == a => self.turn(a, b, c),
+            _ => self.decide(value(self, walk), || value(self, walk)),
+        }
     }
 
     /// Whether v is inside a closed walk that does not pass through it.
@@ -154,7 +195,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
 
     /// The projection of a point.
     pub(super) fn project(&self, p: [f64; 3]) -> [f64; 2] {
-        self.axes.map(|k| p[k])
+        [p[self.axes[0]], p[self.axes[1]]]
     }
 
     /// Rounded coordinates in the projection.

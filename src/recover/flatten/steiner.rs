@@ -3,7 +3,7 @@
 //!
 //! A choice, not a decision: floats do.
 
-use super::cut::Cell;
+use super::cells::Cell;
 use super::plane::Plane;
 use crate::mesh::VertexId;
 use crate::predicate::PointStore;
@@ -119,7 +119,7 @@ fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     crate::recover::split::sight(p, a, b)
 }
 
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
@@ -127,11 +127,11 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn square(a: [f64; 3]) -> f64 {
+pub(super) fn square(a: [f64; 3]) -> f64 {
     dot(a, a)
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],

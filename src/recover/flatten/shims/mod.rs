@@ -23,16 +23,17 @@
 //! The repair is of what is written, not of the tetrahedralization in which polygons are inserted and deleted. Linear time,
 //! but for the degrees of edges of shims.
 
+mod edge_flip;
+
 use super::Pieces;
 use super::plane::Plane;
-use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
+use crate::mesh::{Groups, Incidence, TetId, TetMesh, VertexId};
 use crate::number::Sign;
 use crate::predicate::PointStore;
-use crate::recover::cavity::{Face, face};
+use crate::recover::cavity::face;
 use crate::recover::domain::DomainMarks;
 use crate::recover::polygons::Subpolygons;
 use crate::recover::segments::{SegmentIndex, Subsegments};
-use rustc_hash::{FxHashMap, FxHashSet};
 use serde::Serialize;
 use std::borrow::Cow;
 
@@ -53,36 +54,41 @@ pub struct ShimCounts {
 
 /// Which polygons that were cut each vertex is on.
 struct CutPolygons {
-    at: FxHashMap<VertexId, Vec<usize>>,
+    at: Groups<u32>,
 }
 
 impl CutPolygons {
-    fn new(pieces: &Pieces) -> CutPolygons {
-        let mut at: FxHashMap<VertexId, Vec<usize>> = FxHashMap::default();
+    /// `None` if none was cut. There are n vertices.
+    fn new(pieces: &Pieces, n: usize) -> Option<CutPolygons> {
+        let mut at: Vec<(VertexId, u32)> = Vec::new();
+        let mut last = vec![usize::MAX; if pieces.was_cut.contains(&true) { n } else { 0 }];
         for f in (0..pieces.was_cut.len()).filter(|&f| pieces.was_cut[f]) {
-            for piece in &pieces.complex.polygons[pieces.of(f)] {
-                for &v in &piece.vertices {
-                    let at = at.entry(v).or_default();
-                    if at.last() != Some(&f) {
-                        at.push(f);
-                    }
+            for &v in pieces.complex.polygons[pieces.of(f)]
+                .iter()
+                .flat_map(|piece| &piece.vertices)
+            {
+                if std::mem::replace(&mut last[v.index()], f) != f {
+                    at.push((v, f as u32));
                 }
             }
         }
-        CutPolygons { at }
+        let at = Groups::new(n, at.iter().copied());
+        (!last.is_empty()).then_some(CutPolygons { at })
     }
 
-    fn of(&self, v: VertexId) -> &[usize] {
-        self.at.get(&v).map_or(&[][..], Vec::as_slice)
+    /// In ascending order.
+    fn of(&self, v: VertexId) -> &[u32] {
+        self.at.of(v)
     }
 
     /// The first polygon that all four vertices are on.
     fn common(&self, [a, b, c, d]: [VertexId; 4]) -> Option<usize> {
-        let on_all = |f: &usize| {
+        let on_all = |f: &u32| {
             let others = [b, c, d];
             others.iter().all(|&v| self.of(v).binary_search(f).is_ok())
         };
-        self.of(a).iter().copied().find(on_all)
+        let found = self.of(a).iter().copied().find(on_all);
+        found.map(|f| f as usize)
     }
 }
 
@@ -106,23 +112,13 @@ pub struct Repair<'a, P> {
     pub index: &'a SegmentIndex,
 }
 
-/// A flip in place of the tetrahedra around an edge.
-struct Flip {
-    old: Vec<TetId>,
-    new: Vec<[VertexId; 4]>,
-    /// Faces that are no subpolygons any more, and those that are instead.
-    uncovered: Vec<Face>,
-    covered: Vec<(Face, u32)>,
-}
-
 impl<P: PointStore> Repair<'_, P> {
     /// Repairs what can be repaired. `boundary`: whether the boundary of the domain may move.
     pub fn run(&mut self, boundary: bool) -> ShimCounts {
-        let cut = CutPolygons::new(self.pieces);
         let mut counts = ShimCounts::default();
-        if cut.at.is_empty() {
+        let Some(cut) = CutPolygons::new(self.pieces, self.points.len()) else {
             return counts;
-        }
+        };
         let mut shims: Vec<([VertexId; 4], usize)> = self
             .mesh
             .finite()
@@ -249,160 +245,6 @@ impl<P: PointStore> Repair<'_, P> {
         subpolygons.insert(face([b, c, d]), piece);
         true
     }
-
-    /// A flip of an edge of tetrahedron t after which there are fewer shims.
-    fn flip(&self, t: TetId, cut: &CutPolygons) -> Option<Flip> {
-        let mut v = self.mesh.vertices(t);
-        v.sort_unstable();
-        let edges = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
-        edges
-            .into_iter()
-            .find_map(|[i, j]| self.flip_of_edge(t, [v[i], v[j]], cut))
-    }
-
-    fn flip_of_edge(&self, t: TetId, [p, q]: [VertexId; 2], cut: &CutPolygons) -> Option<Flip> {
-        if self.subsegments.segment_of(p, q).is_some() {
-            return None;
-        }
-        let old: Vec<TetId> = self.mesh.around(t, p, q).take(5).collect();
-        if old.len() > 4 || !old.iter().all(|&t| self.is_kept(t)) {
-            return None;
-        }
-        let region = |t: TetId| self.marks.region.get(t.index());
-        if old.iter().any(|&t| region(t) != region(old[0])) {
-            return None;
-        }
-        // The tetrahedra are (p, q, ring[i], ring[i + 1]), positive.
-        let ring: Vec<VertexId> = old
-            .iter()
-            .map(|&t| self.mesh.vertex(self.mesh.exit_around(t, p, q)))
-            .collect();
-        let starts = if ring.len() == 3 { 1 } else { 2 };
-        let is_shim = |&&v: &&[VertexId; 4]| cut.common(v).is_some();
-        let before = old
-            .iter()
-            .filter(|&&t| cut.common(self.mesh.vertices(t)).is_some())
-            .count();
-        // Those of the smallest vertex first, so that the choice does not depend on where the ring starts.
-        let least = (0..ring.len()).min_by_key(|&i| ring[i]).expect("a ring");
-        (least..least + starts).find_map(|start| {
-            let r = |i: usize| ring[(start + i) % ring.len()];
-            let triangles = [[r(0), r(1), r(2)], [r(0), r(2), r(3)]];
-            let new: Vec<[VertexId; 4]> = triangles[..ring.len() - 2]
-                .iter()
-                .flat_map(|&[a, b, c]| [[a, b, c, q], [a, c, b, p]])
-                .collect();
-            let fewer = new.iter().filter(is_shim).count() < before;
-            let positive = |&v: &[VertexId; 4]| self.points.orient3d(v).is_positive();
-            if !fewer
-                || !new.iter().all(positive)
-                || ring.len() == 4 && self.subsegments.share_segment(self.index, r(0), r(2))
-            {
-                return None;
-            }
-            let mut flip = Flip {
-                old: old.clone(),
-                new,
-                uncovered: Vec::new(),
-                covered: Vec::new(),
-            };
-            (self.moves_surface(&mut flip, [p, q], &ring) && self.leaves_delaunay(&flip))
-                .then_some(flip)
-        })
-    }
-
-    /// Whether the polygons at the edge that is removed can be made of other triangles; notes them.
-    fn moves_surface(&self, flip: &mut Flip, [p, q]: [VertexId; 2], ring: &[VertexId]) -> bool {
-        let covered: Vec<(VertexId, u32)> = ring
-            .iter()
-            .filter_map(|&r| Some((r, *self.subpolygons.get(&face([p, q, r]))?)))
-            .collect();
-        let (r, s, piece) = match covered[..] {
-            [] => return true,
-            [(r, piece), (s, other)] => {
-                let f = self.pieces.polygon_of(piece as usize);
-                let same = f == self.pieces.polygon_of(other as usize);
-                if !same
-                    || !self.pieces.is_cut(f)
-                    || self.subsegments.share_segment(self.index, r, s)
-                    || !self.is_convex(f, [p, r, q, s])
-                {
-                    return false;
-                }
-                (r, s, piece)
-            }
-            _ => return false,
-        };
-        flip.uncovered = vec![face([p, q, r]), face([p, q, s])];
-        flip.covered = vec![(face([p, r, s]), piece), (face([q, r, s]), piece)];
-        flip.covered.iter().all(|&(t, _)| {
-            let is_face = |v: &[VertexId; 4]| t.iter().all(|x| v.contains(x));
-            !self.subpolygons.contains_key(&t) && flip.new.iter().any(is_face)
-        })
-    }
-
-    /// Whether all faces of the new tetrahedra are on polygons, on the hull, or locally Delaunay.
-    fn leaves_delaunay(&self, flip: &Flip) -> bool {
-        let mut behind: FxHashMap<Face, VertexId> = FxHashMap::default();
-        for &t in &flip.old {
-            for c in (0..4).map(|slot| t.corner(slot)) {
-                if !flip.old.contains(&self.mesh.neighbor(c)) {
-                    behind.insert(face(self.mesh.facet(c)), self.mesh.apex_across(c));
-                }
-            }
-        }
-        let covered: FxHashSet<Face> = flip.covered.iter().map(|c| c.0).collect();
-        flip.new.iter().all(|&v| {
-            (0..4).all(|slot| {
-                let others: Vec<VertexId> = (0..4).filter(|&i| i != slot).map(|i| v[i]).collect();
-                let t = face([others[0], others[1], others[2]]);
-                if covered.contains(&t) || self.subpolygons.contains_key(&t) {
-                    return true;
-                }
-                let apex = behind.get(&t).copied().or_else(|| {
-                    let neighbour = flip
-                        .new
-                        .iter()
-                        .find(|w| **w != v && t.iter().all(|x| w.contains(x)))?;
-                    neighbour.iter().copied().find(|x| !t.contains(x))
-                });
-                let apex = apex.expect("each face is inside or on the boundary");
-                let [a, b, c, d] = v;
-                apex.is_infinite()
-                    || !self
-                        .points
-                        .insphere_unperturbed([a, b, c, d, apex])
-                        .is_positive()
-            })
-        })
-    }
-
-    fn apply(&mut self, flip: Flip) {
-        let region = self.marks.region.get(flip.old[0].index()).copied();
-        for &t in &flip.old {
-            self.marks.kept[t.index()] = false;
-        }
-        let mesh = self.mesh.to_mut();
-        let new = mesh.replace(&flip.old, &flip.new);
-        self.incidence.to_mut().update(mesh, &new);
-        self.marks.kept.resize(mesh.capacity(), false);
-        for &t in &new {
-            self.marks.kept[t.index()] = true;
-        }
-        if let Some(region) = region {
-            self.marks.region.resize(mesh.capacity(), 0.0);
-            for &t in &new {
-                self.marks.region[t.index()] = region;
-            }
-        }
-        if !flip.uncovered.is_empty() {
-            let subpolygons = self.subpolygons.to_mut();
-            for t in &flip.uncovered {
-                subpolygons.remove(t);
-            }
-            subpolygons.extend(flip.covered);
-        }
-    }
 }
 
 #[cfg(test)]
@@ -411,19 +253,8 @@ mod tests {
     use crate::delaunay::delaunay;
     use crate::plc::{Complex, Polygon};
     use crate::predicate::DoublePoints;
-
-    fn sorted(mesh: &TetMesh) -> Vec<[VertexId; 4]> {
-        let mut tets: Vec<[VertexId; 4]> = mesh
-            .finite()
-            .map(|t| {
-                let mut v = mesh.vertices(t);
-                v.sort_unstable();
-                v
-            })
-            .collect();
-        tets.sort_unstable();
-        tets
-    }
+    use crate::recover::cavity::Face;
+    use std::sync::Arc;
 
     /// A quadrilateral 0123 that is not flat, 4 exactly on the circumsphere of its corners, 5 beyond it on the other side.
     /// Of the two triangulations of 01234 the perturbation prefers the one with the shim 0123; a 3-2 flip removes it.
@@ -441,7 +272,7 @@ mod tests {
         let ids: Vec<VertexId> = (0..6).map(VertexId::new).collect();
         let mesh = delaunay(&points, &ids).expect("in space").mesh;
         let of = |v: [usize; 4]| v.map(VertexId::new);
-        assert!(sorted(&mesh).contains(&of([0, 1, 2, 3])), "a shim");
+        assert!(mesh.sorted_tets().contains(&of([0, 1, 2, 3])), "a shim");
         let flat = [[0, 1, 3, 4], [0, 1, 3, 5], [1, 2, 3, 4], [1, 2, 3, 5]].map(of);
 
         let piece = |v: [usize; 3]| {
@@ -459,10 +290,10 @@ mod tests {
             }
         };
         let pieces = Pieces {
-            complex: Complex {
+            complex: Arc::new(Complex {
                 polygons: vec![piece([0, 1, 3]), piece([1, 2, 3])],
                 ..Complex::default()
-            },
+            }),
             first: vec![0, 2],
             was_cut: vec![true],
             inner: vec![Vec::new()],
@@ -498,7 +329,7 @@ mod tests {
                 ..ShimCounts::default()
             };
             assert_eq!(counts, expected);
-            assert_eq!(sorted(&repair.mesh), flat);
+            assert_eq!(repair.mesh.sorted_tets(), flat);
             assert_eq!(repair.mesh.check(), Ok(()));
             let mut on_f: Vec<Face> = repair.subpolygons.keys().copied().collect();
             on_f.sort_unstable();

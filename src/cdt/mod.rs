@@ -4,28 +4,23 @@
 //! Plc ─ Complex::new ─ delaunay ─ recover_segments ─ insert_polygons ─ mark_domain ─ ExportedMesh
 //! ```
 
+mod export;
+
 use crate::clock::TaskSeconds;
 use crate::delaunay::delaunay;
 use crate::error::{DeletionRefused, Failure, GaveUp};
-use crate::mesh::{
-    ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, Incidence, TetId, TetMesh, VertexId,
-};
+use crate::mesh::{ExportedMesh, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Plc, PlcError};
 use crate::predicate::{DoublePoints, PointStore, Steiner};
-use crate::recover::cavity::face;
 use crate::recover::deletion::{DeletionCounts, PolygonDeletion};
-use crate::recover::domain::{keeps_edge, mark_domain};
-use crate::recover::embedding::check_embedding;
-use crate::recover::flatten::shims::Repair;
 use crate::recover::flatten::{Pieces, flatten};
 use crate::recover::flips::Watch;
 use crate::recover::polygons::{
     Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons, Times,
 };
-use crate::recover::rounding::round;
 use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 use crate::report::{Phase, Report};
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// What the user chooses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -64,7 +59,7 @@ pub struct Cdt<P = DoublePoints> {
     pub points: P,
     /// The tetrahedra, ghosts included.
     pub mesh: TetMesh,
-    complex: Complex,
+    complex: Arc<Complex>,
     incidence: Incidence,
     subsegments: Subsegments,
     index: SegmentIndex,
@@ -108,7 +103,7 @@ impl Cdt<DoublePoints> {
             if options.steiner == Steiner::Exact {
                 report.triangulated_polygons = complex.triangulate_not_flat(plc)?;
             }
-            Ok::<_, PlcError>(complex)
+            Ok::<_, PlcError>(Arc::new(complex))
         })?;
         report.segments = complex.segments.len();
         report.polygons = complex.polygons.len();
@@ -362,152 +357,6 @@ impl Cdt<DoublePoints> {
     pub fn complex(&self) -> &Complex {
         &self.complex
     }
-
-    /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are in
-    /// an order that depends on their vertices alone, so that equal meshes give equal files.
-    ///
-    /// # Errors
-    /// [`InvalidPlc`](crate::error::InvalidPlc) if polygons of the input overlap, or have something inside that they do not
-    /// declare; [`GaveUp::NothingInside`] if nothing would be left.
-    pub fn export(
-        &mut self,
-        plc: &Plc,
-        keep_hull: bool,
-        report: &mut Report,
-    ) -> Result<ExportedMesh, Failure> {
-        report.time(Phase::Domain, |report| {
-            check_embedding(
-                &self.pieces.complex,
-                &self.subsegments,
-                &self.index,
-                &self.subpolygons,
-                &self.inserted,
-            )?;
-            let marks = mark_domain(
-                plc,
-                &mut self.points,
-                &self.mesh,
-                &self.subpolygons,
-                keep_hull,
-            )?;
-            let mut repair = Repair {
-                points: &self.points,
-                mesh: Cow::Borrowed(&self.mesh),
-                incidence: Cow::Borrowed(&self.incidence),
-                subpolygons: Cow::Borrowed(&self.subpolygons),
-                marks,
-                pieces: &self.pieces,
-                subsegments: &self.subsegments,
-                index: &self.index,
-            };
-            report.flattening.shims = repair.run(!keep_hull);
-            let (mesh, marks) = (&*repair.mesh, &repair.marks);
-            let mut tets: Vec<([VertexId; 4], TetId)> = mesh
-                .finite()
-                .filter(|t| marks.kept[t.index()])
-                .map(|t| (canonical(mesh.vertices(t)), t))
-                .collect();
-            if tets.is_empty() {
-                return Err(GaveUp::NothingInside.into());
-            }
-            tets.sort_unstable();
-            let vertices: Vec<[VertexId; 4]> = tets.iter().map(|&(v, _)| v).collect();
-            let rounding = round(&self.points, &vertices);
-            report.moved_by_rounding = rounding.moved;
-            report.spoilt_by_rounding = rounding.spoilt;
-            let mesh = ExportedMesh {
-                first_index: plc.first_index,
-                vertices: rounding.coordinates,
-                exact: self.exact_positions(),
-                regions: if marks.region.is_empty() {
-                    Vec::new()
-                } else {
-                    tets.iter().map(|(_, t)| marks.region[t.index()]).collect()
-                },
-                faces: self.faces(&repair),
-                edges: self.edges(&repair),
-                tets: vertices,
-            };
-            report.output_tets = mesh.tets.len();
-            report.output_faces = mesh.faces.len();
-            Ok(mesh)
-        })
-    }
-
-    /// Where the points are whose coordinates are no doubles.
-    fn exact_positions(&self) -> Vec<ExactPosition> {
-        let first = self.complex.representative.len();
-        let steiner = (first..self.points.len()).map(VertexId::new);
-        let rounded = steiner.filter(|&v| !self.points.is_double(v));
-        let position = |vertex: VertexId| {
-            let (ends, t) = self.subsegments.place_of_steiner(vertex)?;
-            Some(ExactPosition { vertex, ends, t })
-        };
-        rounded
-            .map(|v| position(v).expect("only points on segments are no doubles"))
-            .collect()
-    }
-
-    /// The subpolygons of the domain with their markers, and the faces of its boundary.
-    fn faces(&self, written: &Repair<DoublePoints>) -> Vec<ExportedFace> {
-        let (mesh, marks) = (&*written.mesh, &written.marks);
-        let mut faces = Vec::new();
-        for t in mesh.finite().filter(|t| marks.kept[t.index()]) {
-            for c in (0..4).map(|slot| t.corner(slot)) {
-                let n = mesh.neighbor(c);
-                let boundary = mesh.is_ghost(n) || !marks.kept[n.index()];
-                if !boundary && n < t {
-                    continue;
-                }
-                let vertices = face(mesh.facet(c));
-                let polygon = written.subpolygons.get(&vertices);
-                if polygon.is_some() || boundary {
-                    let marker =
-                        polygon.map_or(0, |&f| self.pieces.complex.polygons[f as usize].marker);
-                    faces.push(ExportedFace { vertices, marker });
-                }
-            }
-        }
-        faces.sort_unstable_by_key(|f| f.vertices);
-        faces
-    }
-
-    /// The subsegments of the domain with their markers.
-    fn edges(&self, written: &Repair<DoublePoints>) -> Vec<ExportedEdge> {
-        let mut edges = Vec::new();
-        let given = self.complex.segments.len() - self.complex.diagonals;
-        for (s, segment) in self.complex.segments[..given].iter().enumerate() {
-            let chain: Vec<VertexId> = self.subsegments.chain(s as u32).collect();
-            for w in chain.windows(2).filter(|w| {
-                keeps_edge(
-                    &written.mesh,
-                    &written.incidence,
-                    &written.marks,
-                    w[0],
-                    w[1],
-                )
-            }) {
-                let mut vertices = [w[0], w[1]];
-                vertices.sort_unstable();
-                edges.push(ExportedEdge {
-                    vertices,
-                    marker: segment.marker,
-                });
-            }
-        }
-        edges.sort_unstable_by_key(|e| e.vertices);
-        edges
-    }
-}
-
-/// The even permutation of a tetrahedron that has its smallest vertex first and its second smallest second.
-fn canonical(mut v: [VertexId; 4]) -> [VertexId; 4] {
-    let least = (0..4).min_by_key(|&i| v[i]).expect("four vertices");
-    // A double transposition brings it to the front and keeps the orientation.
-    v = [v[least], v[least ^ 1], v[least ^ 2], v[least ^ 3]];
-    let second = (1..4).min_by_key(|&i| v[i]).expect("three vertices");
-    v[1..].rotate_left(second - 1);
-    v
 }
 
 /// The whole pipeline. `report` is filled as far as the run came; `progress` is told how many polygons are done.
@@ -528,33 +377,5 @@ pub fn tetrahedralize(
             cdt.export(plc, true, report)
         }
         result => result,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn canonical_tetrahedra_keep_their_orientation() {
-        let ids = |v: [u32; 4]| v.map(VertexId);
-        assert_eq!(canonical(ids([3, 1, 0, 2])), ids([0, 1, 2, 3]).map(|v| v));
-        // All even permutations of 0123 are one tetrahedron, all odd ones the other.
-        let mut classes = std::collections::BTreeMap::new();
-        for code in 0..256u32 {
-            let v = [code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6];
-            let inversions = (0..4)
-                .flat_map(|i| (i + 1..4).map(move |j| (i, j)))
-                .filter(|&(i, j)| v[i] > v[j]);
-            let odd = inversions.count() % 2;
-            if (0..4).all(|x| v.contains(&x)) {
-                classes
-                    .entry(odd)
-                    .or_insert_with(std::collections::BTreeSet::new)
-                    .insert(canonical(ids(v)));
-            }
-        }
-        assert!(classes.values().all(|c| c.len() == 1));
-        assert_eq!(classes.len(), 2);
     }
 }

@@ -1,0 +1,215 @@
+//! The last phase: what of the tetrahedralization is written, as arrays.
+
+use super::Cdt;
+use crate::error::{Failure, GaveUp};
+use crate::mesh::{
+    ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, SimplexIndex, TetId, VertexId,
+    sort_by_least,
+};
+use crate::plc::Plc;
+use crate::predicate::{DoublePoints, PointStore};
+use crate::recover::cavity::face;
+use crate::recover::domain::{keeps_edge, mark_domain};
+use crate::recover::embedding::check_embedding;
+use crate::recover::flatten::shims::Repair;
+use crate::recover::rounding::round;
+use crate::report::{Phase, Report};
+use std::borrow::Cow;
+
+impl Cdt<DoublePoints> {
+    /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are in
+    /// an order that depends on their vertices alone, so that equal meshes give equal files.
+    ///
+    /// # Errors
+    /// [`InvalidPlc`](crate::error::InvalidPlc) if polygons of the input overlap, or have something inside that they do not
+    /// declare; [`GaveUp::NothingInside`] if nothing would be left.
+    pub fn export(
+        &mut self,
+        plc: &Plc,
+        keep_hull: bool,
+        report: &mut Report,
+    ) -> Result<ExportedMesh, Failure> {
+        report.time(Phase::Domain, |report| {
+            check_embedding(
+                &self.pieces.complex,
+                &self.subsegments,
+                &self.index,
+                (&self.subpolygons, self.points.len()),
+                &self.inserted,
+            )?;
+            let n = self.points.len();
+            let walls = SimplexIndex::of_triangles(n, self.subpolygons.iter());
+            let marks = mark_domain(plc, &mut self.points, &self.mesh, &walls, keep_hull)?;
+            let mut repair = Repair {
+                points: &self.points,
+                mesh: Cow::Borrowed(&self.mesh),
+                incidence: Cow::Borrowed(&self.incidence),
+                subpolygons: Cow::Borrowed(&self.subpolygons),
+                marks,
+                pieces: &self.pieces,
+                subsegments: &self.subsegments,
+                index: &self.index,
+            };
+            report.flattening.shims = repair.run(!keep_hull);
+            let walls = match &repair.subpolygons {
+                Cow::Borrowed(_) => walls,
+                Cow::Owned(moved) => SimplexIndex::of_triangles(n, moved.iter()),
+            };
+            let (mesh, marks) = (&*repair.mesh, &repair.marks);
+            let mut tets: Vec<([VertexId; 4], TetId)> = mesh
+                .finite()
+                .filter(|t| marks.kept[t.index()])
+                .map(|t| (canonical(mesh.vertices(t)), t))
+                .collect();
+            if tets.is_empty() {
+                return Err(GaveUp::NothingInside.into());
+            }
+            sort_by_least(&mut tets, n, |tet| tet.0[0], |tet| tet.0);
+            let vertices: Vec<[VertexId; 4]> = tets.iter().map(|&(v, _)| v).collect();
+            let rounding = round(&self.points, &vertices);
+            report.moved_by_rounding = rounding.moved;
+            report.spoilt_by_rounding = rounding.spoilt;
+            let faces = self.faces(&repair, &walls);
+            let mesh = ExportedMesh {
+                first_index: plc.first_index,
+                vertices: rounding.coordinates,
+                exact: self.exact_positions(),
+                regions: if marks.region.is_empty() {
+                    Vec::new()
+                } else {
+                    tets.iter().map(|(_, t)| marks.region[t.index()]).collect()
+                },
+                edges: self.edges(&repair, &faces),
+                faces,
+                tets: vertices,
+            };
+            report.output_tets = mesh.tets.len();
+            report.output_faces = mesh.faces.len();
+            Ok(mesh)
+        })
+    }
+
+    /// Where the points are whose coordinates are no doubles.
+    fn exact_positions(&self) -> Vec<ExactPosition> {
+        let first = self.complex.representative.len();
+        let steiner = (first..self.points.len()).map(VertexId::new);
+        let rounded = steiner.filter(|&v| !self.points.is_double(v));
+        let position = |vertex: VertexId| {
+            let (ends, t) = self.subsegments.place_of_steiner(vertex)?;
+            Some(ExactPosition { vertex, ends, t })
+        };
+        rounded
+            .map(|v| position(v).expect("only points on segments are no doubles"))
+            .collect()
+    }
+
+    /// The subpolygons of the domain with their markers, and the faces of its boundary.
+    fn faces(&self, written: &Repair<DoublePoints>, walls: &SimplexIndex<2>) -> Vec<ExportedFace> {
+        let (mesh, marks) = (&*written.mesh, &written.marks);
+        let mut faces = Vec::new();
+        for t in mesh.finite().filter(|t| marks.kept[t.index()]) {
+            for c in (0..4).map(|slot| t.corner(slot)) {
+                let n = mesh.neighbor(c);
+                // Ghosts are not kept.
+                let boundary = !marks.kept[n.index()];
+                if !boundary && n < t {
+                    continue;
+                }
+                let facet = mesh.facet(c);
+                let polygon = walls.triangle(facet);
+                if polygon.is_some() || boundary {
+                    let marker =
+                        polygon.map_or(0, |f| self.pieces.complex.polygons[f as usize].marker);
+                    let vertices = face(facet);
+                    faces.push(ExportedFace { vertices, marker });
+                }
+            }
+        }
+        let n = self.points.len();
+        sort_by_least(&mut faces, n, |f| f.vertices[0], |f| f.vertices);
+        faces
+    }
+
+    /// The subsegments of the domain, whose faces are given, with their markers.
+    fn edges(&self, written: &Repair<DoublePoints>, faces: &[ExportedFace]) -> Vec<ExportedEdge> {
+        let n = self.points.len();
+        let mut markers = Vec::new();
+        let mut ends: Vec<[VertexId; 2]> = Vec::new();
+        let given = self.complex.segments.len() - self.complex.diagonals;
+        for (s, segment) in self.complex.segments[..given].iter().enumerate() {
+            let mut chain = self.subsegments.chain(s as u32);
+            let mut last = chain.next();
+            for v in chain {
+                ends.extend(last.replace(v).map(|u| [u.min(v), u.max(v)]));
+            }
+            markers.resize(ends.len(), segment.marker);
+        }
+        // Where a face is written, its edges are. Of the others the tetrahedra decide.
+        let mut kept = vec![false; ends.len()];
+        let index = SimplexIndex::of_edges(n, &ends);
+        for &ExportedFace { vertices, .. } in faces {
+            let [a, b, c] = vertices;
+            for i in [[a, b], [a, c], [b, c]].map(|[a, b]| index.edge(a, b)) {
+                i.into_iter().for_each(|i| kept[i as usize] = true);
+            }
+        }
+        let (mesh, incidence) = (&written.mesh, &written.incidence);
+        let mut edges: Vec<ExportedEdge> = Vec::with_capacity(ends.len());
+        for (i, (vertices, marker)) in ends.into_iter().zip(markers).enumerate() {
+            let [a, b] = vertices;
+            if kept[i] || keeps_edge(mesh, incidence, &written.marks, a, b) {
+                edges.push(ExportedEdge { vertices, marker });
+            }
+        }
+        sort_by_least(&mut edges, n, |e| e.vertices[0], |e| e.vertices);
+        edges
+    }
+}
+
+/// The even permutation of a tetrahedron that has its smallest vertex first and its second smallest second.
+fn canonical(mut v: [VertexId; 4]) -> [VertexId; 4] {
+    let mut least = 0;
+    for i in 1..4 {
+        if v[i] < v[least] {
+            least = i;
+        }
+    }
+    // A double transposition brings it to the front and keeps the orientation.
+    v = [v[least], v[least ^ 1], v[least ^ 2], v[least ^ 3]];
+    let [a, b, c, d] = v;
+    if b < c && b < d {
+        v
+    } else if c < d {
+        [a, c, d, b]
+    } else {
+        [a, d, b, c]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn canonical_tetrahedra_keep_their_orientation() {
+        let ids = |v: [u32; 4]| v.map(VertexId);
+        assert_eq!(canonical(ids([3, 1, 0, 2])), ids([0, 1, 2, 3]).map(|v| v));
+        // All even permutations of 0123 are one tetrahedron, all odd ones the other.
+        let mut classes = std::collections::BTreeMap::new();
+        for code in 0..256u32 {
+            let v = [code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6];
+            let inversions = (0..4)
+                .flat_map(|i| (i + 1..4).map(move |j| (i, j)))
+                .filter(|&(i, j)| v[i] > v[j]);
+            let odd = inversions.count() % 2;
+            if (0..4).all(|x| v.contains(&x)) {
+                classes
+                    .entry(odd)
+                    .or_insert_with(std::collections::BTreeSet::new)
+                    .insert(canonical(ids(v)));
+            }
+        }
+        assert!(classes.values().all(|c| c.len() == 1));
+        assert_eq!(classes.len(), 2);
+    }
+}
