@@ -10,4 +10,5 @@ pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;
+pub(crate) use topology::slot_of;
 pub use topology::{FACET, NEXT, TetMesh, TopologyError};

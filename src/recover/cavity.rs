@@ -25,7 +25,7 @@
 
 use super::region::Region;
 use super::scratch::Table;
-use super::side::{Side, Sides};
+use super::side::{Side, Sides, corners};
 use super::walls::{Filled, Wall, Walls};
 use crate::clock::{Task, TaskClock};
 use crate::delaunay::{Delaunay, delaunay};
@@ -193,8 +193,8 @@ fn vanishing<P: PointStore>(
     let mut polygons: Vec<Face> = Vec::new();
     for &t in old {
         let crossing = place.sides.crossing_facets(&mesh.vertices(t));
-        let corners = (0..4).filter(|slot| !crossing[*slot]).map(|s| t.corner(s));
-        let inner = corners.filter(|&c| c < mesh.twin(c) && is_old(mesh.neighbor(c)));
+        let others = corners(t, !crossing & 0b1111);
+        let inner = others.filter(|&c| c < mesh.twin(c) && is_old(mesh.neighbor(c)));
         let facets = inner.map(|c| face(mesh.facet(c)));
         polygons.extend(facets.filter(|&f| is_subpolygon(f)));
     }

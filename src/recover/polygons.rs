@@ -315,6 +315,9 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
                 });
             }
         }
+        if self.subpolygons.is_empty() {
+            return Ok(());
+        }
         for c in region.crossing_triangles(self.mesh, sides) {
             let facet = self.mesh.facet(c);
             if let Some(&other) = self.subpolygons.get(&face(facet)) {
