@@ -220,13 +220,12 @@ impl TetMesh {
 
     /// Gives every finite vertex a new id.
     pub fn rename_vertices(&mut self, new_id: impl Fn(VertexId) -> VertexId) {
-        for v in self
-            .tets
-            .iter_mut()
-            .flat_map(|t| &mut t.vertices)
-            .filter(|v| !v.is_infinite())
-        {
-            *v = new_id(*v);
+        for tet in &mut self.tets {
+            for v in &mut tet.vertices {
+                if !v.is_infinite() {
+                    *v = new_id(*v);
+                }
+            }
         }
     }
 

@@ -136,6 +136,11 @@ impl<'a, P: PointStore> Sides<'a, P> {
         known.unwrap_or_else(|| self.compute(v))
     }
 
+    /// The side of v, if it has been asked for, or v is one of f's.
+    pub fn known(&self, v: VertexId) -> Option<Side> {
+        self.known.borrow().get(v.index())
+    }
+
     #[cold]
     fn compute(&self, v: VertexId) -> Side {
         let [a, b, c] = self.frame;
