@@ -3,6 +3,7 @@
 //! Throughout, v and w are the ends of the edge that a flip creates. A corner "opposite p" of an old tetrahedron sees a
 //! facet of the flipped volume's boundary; what lies behind it stays and is glued to a new tetrahedron.
 
+use super::topology::slot_of;
 use super::{Corner, TetId, TetMesh, VertexId};
 
 impl TetMesh {
@@ -12,8 +13,9 @@ impl TetMesh {
         [t1, t2]: [TetId; 2],
         [v, x, y, z, w]: [VertexId; 5],
     ) -> [TetId; 3] {
-        let behind1 = [x, y, z].map(|p| self.behind(t1, p));
-        let behind2 = [x, y, z].map(|p| self.behind(t2, p));
+        let (old1, old2) = (self.tet(t1), self.tet(t2));
+        let behind1 = [behind(old1, x), behind(old1, y), behind(old1, z)];
+        let behind2 = [behind(old2, x), behind(old2, y), behind(old2, z)];
         let (a, b) = (t1, t2);
         let c = self.add([v, x, y, w]);
         let [b1, c1] = [b, c].map(|t| t.corner(1));
@@ -31,8 +33,9 @@ impl TetMesh {
         [t1, t2, t3]: [TetId; 3],
         [v, w, p, q, r]: [VertexId; 5],
     ) -> [TetId; 2] {
-        let behind_p = [t2, t1, t3].map(|t| self.behind(t, p));
-        let behind_q = [t2, t1, t3].map(|t| self.behind(t, q));
+        let old = [self.tet(t2), self.tet(t1), self.tet(t3)];
+        let behind_p = [behind(old[0], p), behind(old[1], p), behind(old[2], p)];
+        let behind_q = [behind(old[0], q), behind(old[1], q), behind(old[2], q)];
         self.remove(t3);
         let (a, b) = (t1, t2);
         self.put(
@@ -54,8 +57,8 @@ impl TetMesh {
         [t1, t2, t3, t4]: [TetId; 4],
         [v, w, p, q, r, u]: [VertexId; 6],
     ) -> [TetId; 4] {
-        let behind_p = [t1, t2, t3, t4].map(|t| self.behind(t, p));
-        let behind_q = [t1, t2, t3, t4].map(|t| self.behind(t, q));
+        let behind_p = [t1, t2, t3, t4].map(|t| behind(self.tet(t), p));
+        let behind_q = [t1, t2, t3, t4].map(|t| behind(self.tet(t), q));
         let [a, b, c, d] = [t1, t2, t3, t4];
         self.put(
             a,
@@ -79,12 +82,12 @@ impl TetMesh {
         );
         [a, b, c, d]
     }
+}
 
-    /// What lies across the facet of t opposite p.
-    #[inline]
-    fn behind(&self, t: TetId, p: VertexId) -> Corner {
-        self.twin(self.corner_of(t, p))
-    }
+/// What lies across the facet of a tetrahedron opposite its vertex p.
+#[inline(always)]
+fn behind((vertices, twins): (&[VertexId; 4], &[Corner; 4]), p: VertexId) -> Corner {
+    twins[slot_of(vertices, p)]
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;
 pub(crate) use least::{Groups, SimplexIndex, sort_by_least};
+pub(crate) use topology::slot_of;
 pub use topology::{FACET, NEXT, TetMesh, TopologyError};
 
 #[cfg(test)]

@@ -110,6 +110,13 @@ impl TetMesh {
         self.tets[t.index()].vertices
     }
 
+    /// The four vertices, and what lies across the facets opposite to them: one cache line.
+    #[inline]
+    pub fn tet(&self, t: TetId) -> (&[VertexId; 4], &[Corner; 4]) {
+        let Tet { vertices, twins } = &self.tets[t.index()];
+        (vertices, twins)
+    }
+
     /// Whether `t` is in the mesh.
     #[inline]
     pub fn is_alive(&self, t: TetId) -> bool {
@@ -163,10 +170,7 @@ impl TetMesh {
     /// The corner of `t` at `v`, a vertex of `t`.
     #[inline]
     pub fn corner_of(&self, t: TetId, v: VertexId) -> Corner {
-        let [a, b, c, d] = self.tets[t.index()].vertices;
-        debug_assert!(a == v || b == v || c == v || d == v, "v is a vertex of t");
-        // Without branches: this is asked in the innermost loops, and cannot be predicted.
-        t.corner(usize::from(b == v) | (usize::from(c == v) << 1) | (3 * usize::from(d == v)))
+        t.corner(slot_of(&self.tets[t.index()].vertices, v))
     }
 
     /// Whether `t` has all of the given vertices.
@@ -216,13 +220,12 @@ impl TetMesh {
 
     /// Gives every finite vertex a new id.
     pub fn rename_vertices(&mut self, new_id: impl Fn(VertexId) -> VertexId) {
-        for v in self
-            .tets
-            .iter_mut()
-            .flat_map(|t| &mut t.vertices)
-            .filter(|v| !v.is_infinite())
-        {
-            *v = new_id(*v);
+        for tet in &mut self.tets {
+            for v in &mut tet.vertices {
+                if !v.is_infinite() {
+                    *v = new_id(*v);
+                }
+            }
         }
     }
 
@@ -262,6 +265,12 @@ impl TetMesh {
         for twin in self.tets[t.index()].twins {
             prefetch(&self.tets, twin.tet().index());
         }
+    }
+
+    /// Lets the processor fetch `t`, which will be looked at soon.
+    #[inline]
+    pub(crate) fn prefetch(&self, t: TetId) {
+        prefetch(&self.tets, t.index());
     }
 
     /// Gives `t` new vertices and lets its facets name `twins` without the converse.
@@ -371,6 +380,15 @@ impl TetMesh {
         }
         Ok(())
     }
+}
+
+/// The slot of `v`, one of the four vertices. Without branches: this is asked in the innermost loops, and cannot be predicted.
+#[inline(always)]
+pub(crate) fn slot_of(vertices: &[VertexId; 4], v: VertexId) -> usize {
+    debug_assert!(vertices.contains(&v), "v is one of the vertices");
+    // Written out, as in all such loops: array::map is not always inlined.
+    let [_, b, c, d] = *vertices;
+    (usize::from(b == v) | usize::from(c == v) << 1 | (3 * usize::from(d == v))) & 3
 }
 
 /// Three vertices in ascending order.

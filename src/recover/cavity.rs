@@ -25,11 +25,11 @@
 
 use super::region::Region;
 use super::scratch::Table;
-use super::side::{Side, Sides};
+use super::side::{Side, Sides, corners};
 use super::walls::{Filled, Wall, Walls};
 use crate::clock::{Task, TaskClock};
 use crate::delaunay::{Delaunay, delaunay};
-use crate::mesh::{Corner, TetId, TetMesh, VertexId};
+use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -117,7 +117,7 @@ pub struct CavityScratch {
     pub(super) clock: TaskClock,
 }
 
-/// Retriangulates the region R of f. `is_subpolygon` tells the triangles of polygons that are in the mesh.
+/// Retriangulates the region R of f. `is_subpolygon` tells the triangles of polygons that are in the mesh, if there are any.
 ///
 /// # Errors
 /// [`Refused`]; the mesh is not touched in any case.
@@ -125,7 +125,7 @@ pub fn retriangulate<P: PointStore>(
     mesh: &TetMesh,
     sides: &Sides<P>,
     region: &Region,
-    is_subpolygon: &dyn Fn(Face) -> bool,
+    is_subpolygon: Option<&dyn Fn(Face) -> bool>,
     scratch: &mut CavityScratch,
 ) -> Result<Retriangulation, Refused> {
     scratch.swallowed_by.clear();
@@ -135,9 +135,11 @@ pub fn retriangulate<P: PointStore>(
         sides,
         region,
     };
-    let [below, above] = [Side::Right, Side::Left].map(|side| place.boundary(side));
+    let [below, above] = place.boundaries()?;
+    let [below_f, on_f, above_f] = place.vertices(scratch);
 
-    let mut right = Cavity::new(place, Side::Right, &below?, &[], scratch)?;
+    let vertices = [below_f.as_slice(), &on_f];
+    let mut right = Cavity::new(place, Side::Right, vertices, &below, &[], scratch)?;
     let border = right.open_edges();
     right.expand()?;
     right.scratch.clock.end(Task::CavityFaces);
@@ -154,7 +156,8 @@ pub fn retriangulate<P: PointStore>(
     let mut swallowed = right.swallowed;
 
     let turned: Vec<[VertexId; 3]> = faces.iter().map(|&[a, b, c]| [b, a, c]).collect();
-    let mut left = Cavity::new(place, Side::Left, &above?, &turned, scratch)?;
+    let vertices = [above_f.as_slice(), &on_f];
+    let mut left = Cavity::new(place, Side::Left, vertices, &above, &turned, scratch)?;
     left.expand()?;
     left.scratch.clock.end(Task::CavityFaces);
     if !left.has_polygon() {
@@ -168,7 +171,9 @@ pub fn retriangulate<P: PointStore>(
     old.sort_unstable();
     let is_old = |t: TetId| region.contains(t) || scratch.swallowed_by.get(t.index()).is_some();
     let (new, across) = Filled::join(below, above, &is_old).ok_or(Refused::NotExposed)?;
-    let displaced = vanishing(place, &old, &new, &is_old, is_subpolygon);
+    let displaced = is_subpolygon.map_or_else(Vec::new, |is_subpolygon| {
+        vanishing(place, &old, &new, &is_old, is_subpolygon)
+    });
     scratch.clock.end(Task::Merging);
     Ok(Retriangulation {
         old,
@@ -193,8 +198,8 @@ fn vanishing<P: PointStore>(
     let mut polygons: Vec<Face> = Vec::new();
     for &t in old {
         let crossing = place.sides.crossing_facets(&mesh.vertices(t));
-        let corners = (0..4).filter(|slot| !crossing[*slot]).map(|s| t.corner(s));
-        let inner = corners.filter(|&c| c < mesh.twin(c) && is_old(mesh.neighbor(c)));
+        let others = corners(t, !crossing & 0b1111);
+        let inner = others.filter(|&c| c < mesh.twin(c) && is_old(mesh.neighbor(c)));
         let facets = inner.map(|c| face(mesh.facet(c)));
         polygons.extend(facets.filter(|&f| is_subpolygon(f)));
     }
@@ -225,28 +230,55 @@ impl<P> Clone for Place<'_, P> {
 impl<P> Copy for Place<'_, P> {}
 
 impl<P: PointStore> Place<'_, P> {
-    /// The facets of R's boundary on one side of f: oriented outwards, with the corner outside of each.
-    fn boundary(&self, side: Side) -> Result<Vec<([VertexId; 3], Corner)>, Refused> {
-        let mut boundary = Vec::with_capacity(self.region.tets.len() / 2);
+    /// The facets of R's boundary on the right and on the left side of f: oriented outwards, with the corner outside of
+    /// each.
+    fn boundaries(&self) -> Result<[Vec<Wall>; 2], Refused> {
+        let expected = self.region.tets.len() / 2;
+        let mut walls = [Vec::with_capacity(expected), Vec::with_capacity(expected)];
         for &t in &self.region.tets {
-            let vertices = self.mesh.vertices(t);
-            let [left, right] = self.sides.left_and_right(&vertices);
-            let here = if side == Side::Left { left } else { right };
-            for c in (0..4).map(|slot| t.corner(slot)) {
-                let others = !(1 << c.slot());
-                if self.region.contains(self.mesh.neighbor(c)) {
+            let (vertices, twins) = self.mesh.tet(t);
+            let [left, right] = self.sides.left_and_right(vertices);
+            for (slot, &twin) in twins.iter().enumerate() {
+                if self.region.contains(twin.tet()) {
                     continue;
                 }
+                let others = !(1 << slot);
                 if (left | right) & others == 0 {
                     // A triangle on f already, though f is missing here: f is not flat, and would be covered twice.
                     return Err(Refused::NotExposed);
                 }
-                if here & others != 0 {
-                    boundary.push((self.mesh.facet(c), self.mesh.twin(c)));
+                let [i, j, k] = FACET[slot];
+                let wall = Wall::new([vertices[i], vertices[j], vertices[k]], twin);
+                if right & others != 0 {
+                    walls[0].push(wall);
+                }
+                if left & others != 0 {
+                    walls[1].push(wall);
                 }
             }
         }
-        Ok(boundary)
+        Ok(walls)
+    }
+
+    /// The vertices of R that are right of f, on f, and left of it.
+    fn vertices(&self, scratch: &mut CavityScratch) -> [Vec<VertexId>; 3] {
+        let seen = &mut scratch.tet_at;
+        seen.clear();
+        let (mut right, mut on, mut left) = (Vec::new(), Vec::new(), Vec::new());
+        for &t in &self.region.tets {
+            for &v in self.mesh.tet(t).0 {
+                if seen.get(v.index()).is_none() {
+                    seen.set(v.index(), Some(NOT_INDEXED));
+                    match self.sides.of(v) {
+                        Side::Right => right.push(v),
+                        Side::On => on.push(v),
+                        Side::Left => left.push(v),
+                        Side::Stray | Side::Infinite => {}
+                    }
+                }
+            }
+        }
+        [right, on, left]
     }
 }
 
@@ -264,35 +296,27 @@ struct Cavity<'a, P> {
 }
 
 impl<'a, P: PointStore> Cavity<'a, P> {
-    /// The part of R on one side of f, and D. `boundary` is that of R there, `f` the triangles of f if they are known.
+    /// The part of R on one side of f, and D. `vertices` are those there and on f, `boundary` is that of R there, `f` the
+    /// triangles of f if they are known.
     fn new(
         place: Place<'a, P>,
         side: Side,
-        boundary: &[([VertexId; 3], Corner)],
+        vertices: [&[VertexId]; 2],
+        boundary: &[Wall],
         f: &[[VertexId; 3]],
         scratch: &'a mut CavityScratch,
     ) -> Result<Self, Refused> {
         scratch.tet_at.clear();
-        let mut vertices: Vec<VertexId> = Vec::with_capacity(place.region.tets.len() / 4);
-        for v in place
-            .region
-            .tets
-            .iter()
-            .flat_map(|&t| place.mesh.vertices(t))
-        {
-            let of_v = place.sides.of(v);
-            if (of_v == side || of_v == Side::On) && scratch.tet_at.get(v.index()).is_none() {
-                scratch.tet_at.set(v.index(), Some(NOT_INDEXED));
-                vertices.push(v);
-            }
+        let mut vertices = vertices.concat();
+        for v in &vertices {
+            scratch.tet_at.set(v.index(), Some(NOT_INDEXED));
         }
         vertices.sort_unstable();
         scratch.clock.end(Task::CavityFaces);
         let d = delaunay(place.sides.points(), &vertices).map_err(|_| Refused::NotExposed)?;
         scratch.clock.end(Task::CavityDelaunay);
-        let boundary = boundary.iter().map(|&(facet, c)| Wall::new(facet, c));
         let f = f.iter().map(|&facet| Wall::of_polygon(facet, Corner::NONE));
-        let mut walls = Walls::new(boundary.chain(f));
+        let mut walls = Walls::new(boundary.iter().copied().chain(f));
         walls.find_all(&d.mesh);
         Ok(Cavity {
             place,

@@ -58,8 +58,10 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         may_displace: bool,
     ) -> Option<Retriangulation> {
         let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
+        let any = !self.subpolygons.is_empty();
+        let is_subpolygon = any.then_some(&is_subpolygon as &dyn Fn(Face) -> bool);
         let scratch = &mut self.scratch.cavity;
-        let result = cavity::retriangulate(self.mesh, sides, region, &is_subpolygon, scratch);
+        let result = cavity::retriangulate(self.mesh, sides, region, is_subpolygon, scratch);
         let fits = |r: &Retriangulation| may_displace || r.displaced.is_empty();
         result.ok().filter(fits)
     }

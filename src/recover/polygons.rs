@@ -303,7 +303,11 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
                 .all(|&v| self.subsegments.segment_of_steiner(v).is_none())
         };
         let facets = || self.complex.polygons[f].facets.clone();
-        for segment in region.crossing_edges(self.mesh, sides) {
+        let segments = match self.may_be_crossed(sides, region) {
+            true => Some(region.crossing_edges(self.mesh, sides)),
+            false => None,
+        };
+        for segment in segments.into_iter().flatten() {
             let [a, b] = segment;
             if let Some(s) = self.subsegments.segment_of(a, b) {
                 return Err(if certain(&segment) {
@@ -314,6 +318,9 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
                     self.not_flat(f, NotFlatReason::CrossedBySegment { segment })
                 });
             }
+        }
+        if self.subpolygons.is_empty() {
+            return Ok(());
         }
         for c in region.crossing_triangles(self.mesh, sides) {
             let facet = self.mesh.facet(c);
@@ -331,6 +338,27 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             }
         }
         Ok(())
+    }
+
+    /// `false` if no subsegment is among the crossing edges of the region, and there are so few that one look at each tells:
+    /// the sides of the region's vertices are known, and two of them must differ.
+    fn may_be_crossed(&self, sides: &Sides<P>, region: &Region) -> bool {
+        let few = self.complex.segments.len() + self.subsegments.steiner_count();
+        if few > region.tets.len() {
+            return true;
+        }
+        let side = |v: VertexId| match sides.known(v) {
+            Some(Side::Left) => 1,
+            Some(Side::Right) => 2,
+            _ => 0,
+        };
+        (0..self.complex.segments.len() as u32).any(|s| {
+            let mut last = 0;
+            self.subsegments
+                .chain(s)
+                .map(side)
+                .any(|side| std::mem::replace(&mut last, side) | side == 3)
+        })
     }
 
     /// Flips in one region. If they fail the region is restored, and given back.

@@ -1,7 +1,7 @@
 //! The region R of a missing region of a polygon f: the tetrahedra whose interiors f cuts (paper §3).
 
 use super::scratch::Table;
-use super::side::Sides;
+use super::side::{Sides, corners};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 
@@ -34,9 +34,9 @@ impl Region {
         let mut next = 0;
         while let Some(&t) = tets.get(next) {
             next += 1;
-            let crossing = sides.crossing_facets(&mesh.vertices(t));
-            for c in (0..4).filter(|slot| crossing[*slot]).map(|s| t.corner(s)) {
-                let n = mesh.neighbor(c);
+            let (vertices, twins) = mesh.tet(t);
+            for c in corners(t, sides.crossing_facets(vertices)) {
+                let n = twins[c.slot()].tet();
                 if !marks.get(n.index()) && !mesh.is_ghost(n) {
                     marks.set(n.index(), true);
                     tets.push(n);
@@ -76,10 +76,12 @@ impl Region {
     ) -> Vec<Corner> {
         let mut triangles = Vec::with_capacity(2 * self.tets.len());
         for &t in &self.tets {
-            let crossing = sides.crossing_facets(&mesh.vertices(t));
-            let corners = (0..4).filter(|slot| crossing[*slot]).map(|s| t.corner(s));
-            triangles
-                .extend(corners.filter(|&c| c < mesh.twin(c) && !mesh.is_ghost(mesh.neighbor(c))));
+            let (vertices, twins) = mesh.tet(t);
+            for c in corners(t, sides.crossing_facets(vertices)) {
+                if c < twins[c.slot()] && !mesh.is_ghost(twins[c.slot()].tet()) {
+                    triangles.push(c);
+                }
+            }
         }
         triangles
     }
@@ -93,8 +95,8 @@ impl Region {
         self.tets.iter().flat_map(move |&t| {
             let v = mesh.vertices(t);
             let [left, right] = sides.left_and_right(&v);
-            let among = |set: u8| (0..4usize).filter(move |i| set >> i & 1 == 1);
-            among(left).flat_map(move |i| among(right).map(move |j| [v[i], v[j]]))
+            let ends = move |set: u8| corners(t, set).map(move |c| v[c.slot()]);
+            ends(left).flat_map(move |l| ends(right).map(move |r| [l, r]))
         })
     }
 

@@ -1,7 +1,7 @@
 //! On which side of a polygon a vertex lies (paper §3.2: left, right, or neither).
 
 use super::scratch::Table;
-use crate::mesh::{TetId, TetMesh, VertexId};
+use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::number::{Approx, Dyadic, Exact, Number, Sign};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
@@ -136,6 +136,11 @@ impl<'a, P: PointStore> Sides<'a, P> {
         known.unwrap_or_else(|| self.compute(v))
     }
 
+    /// The side of v, if it has been asked for, or v is one of f's.
+    pub fn known(&self, v: VertexId) -> Option<Side> {
+        self.known.borrow().get(v.index())
+    }
+
     #[cold]
     fn compute(&self, v: VertexId) -> Side {
         let [a, b, c] = self.frame;
@@ -167,6 +172,22 @@ impl<'a, P: PointStore> Sides<'a, P> {
     #[inline]
     pub fn left_and_right(&self, vertices: &[VertexId; 4]) -> [u8; 2] {
         let (mut left, mut right) = (0, 0);
+        let known = self.known.borrow();
+        for (i, v) in vertices.iter().enumerate() {
+            let Some(side) = known.get(v.index()) else {
+                drop(known);
+                return self.new_left_and_right(vertices);
+            };
+            left |= u8::from(side == Side::Left) << i;
+            right |= u8::from(side == Side::Right) << i;
+        }
+        [left, right]
+    }
+
+    /// The same, where not all sides are known.
+    #[cold]
+    fn new_left_and_right(&self, vertices: &[VertexId; 4]) -> [u8; 2] {
+        let (mut left, mut right) = (0, 0);
         for (i, &v) in vertices.iter().enumerate() {
             let side = self.of(v);
             left |= u8::from(side == Side::Left) << i;
@@ -175,17 +196,48 @@ impl<'a, P: PointStore> Sides<'a, P> {
         [left, right]
     }
 
-    /// Which facets of a tetrahedron have vertices on both sides, by the opposite vertex.
+    /// Which facets of a tetrahedron have vertices on both sides, by the bit of the opposite vertex.
     #[inline]
-    pub fn crossing_facets(&self, vertices: &[VertexId; 4]) -> [bool; 4] {
-        let [left, right] = self.left_and_right(vertices);
-        [0, 1, 2, 3].map(|i: u8| left & !(1 << i) != 0 && right & !(1 << i) != 0)
+    pub fn crossing_facets(&self, vertices: &[VertexId; 4]) -> u8 {
+        crossing_facets(self.left_and_right(vertices))
     }
 
     /// Whether t has vertices on both sides and is no ghost.
     pub fn crosses_tet(&self, mesh: &TetMesh, t: TetId) -> bool {
         !mesh.is_ghost(t) && self.crosses(&mesh.vertices(t))
     }
+}
+
+/// Which facets have vertices on both sides, by the bit of the opposite vertex, if the left and the right ones are those.
+#[inline(always)]
+pub fn crossing_facets([left, right]: [u8; 2]) -> u8 {
+    CROSSING_FACETS[usize::from(left & 15) << 4 | usize::from(right & 15)]
+}
+
+/// By 16·left + right.
+const CROSSING_FACETS: [u8; 256] = {
+    let mut table = [0; 256];
+    let mut i = 0;
+    while i < 256 {
+        let mut slot = 0;
+        while slot < 4 {
+            let others = 15 & !(1 << slot);
+            if (i >> 4) & others != 0 && i & others != 0 {
+                table[i] |= 1 << slot;
+            }
+            slot += 1;
+        }
+        i += 1;
+    }
+    table
+};
+
+/// The corners of `t` whose bits are set.
+#[inline]
+pub fn corners(t: TetId, set: u8) -> impl Iterator<Item = Corner> {
+    let lowest = |set: u8| (set != 0).then_some(set);
+    let sets = std::iter::successors(lowest(set), move |set| lowest(set & (set - 1)));
+    sets.map(move |set| t.corner(set.trailing_zeros() as usize))
 }
 
 /// A table that knows the vertices of f.

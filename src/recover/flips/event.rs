@@ -1,6 +1,6 @@
 //! A potential flip.
 
-use crate::mesh::{Corner, TetId, TetMesh, VertexId};
+use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId, slot_of};
 use crate::number::Sign;
 
 /// The crossing triangle xyz between the tetrahedra vxyz and wxzy, which must be flipped at some time.
@@ -17,16 +17,23 @@ pub struct Event {
 /// v, x, y, z, w of the triangle opposite corner `c`, at v.
 #[inline]
 pub fn circuit(mesh: &TetMesh, c: Corner) -> [VertexId; 5] {
-    let [x, y, z] = mesh.facet(c);
-    [mesh.vertex(c), x, y, z, mesh.apex_across(c)]
+    let (v, twins) = mesh.tet(c.tet());
+    let [i, j, k] = FACET[c.slot()];
+    [v[c.slot()], v[i], v[j], v[k], mesh.vertex(twins[c.slot()])]
 }
 
 impl Event {
     /// The corner at v of the tetrahedron vxyz, if both tetrahedra still exist.
     #[inline]
     pub fn corner_if_alive(&self, mesh: &TetMesh) -> Option<Corner> {
+        let (vertices, twins) = mesh.tet(self.tet);
         let [v, x, y, z, w] = self.circuit;
-        let c = self.tet.corner(mesh.slot_of(self.tet, v)?);
-        (mesh.has_vertices(self.tet, &[x, y, z]) && mesh.apex_across(c) == w).then_some(c)
+        let [a, b, c, d] = *vertices;
+        let has = |p: VertexId| (a == p) | (b == p) | (c == p) | (d == p);
+        if !(has(v) & has(x) & has(y) & has(z)) {
+            return None;
+        }
+        let slot = slot_of(vertices, v);
+        (mesh.vertex(twins[slot]) == w).then(|| self.tet.corner(slot))
     }
 }

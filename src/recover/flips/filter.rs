@@ -8,14 +8,18 @@
 //! # Bounds from the largest differences
 //! By the proof in [`Approx`] an evaluation errs by at most k·u′·m, where k is an index that depends on the formula and m
 //! the formula over magnitudes. Let X, Y, Z be the largest coordinate differences to the origin, a vertex of the
-//! tetrahedron, R the largest magnitude of a rate relative to that of the origin, and L = X² + Y² + Z². Then
+//! tetrahedron, R twice the largest magnitude of the rate of any vertex so far, so that it bounds the magnitude of a rate
+//! relative to that of the origin, and L = X² + Y² + Z². Then
 //!
 //! | value | k | m at most |
 //! |---|---|---|
 //! | volume of the tetrahedron, and with the apex in place of another vertex | 8: cross product 4, product 6, two sums | 6·XYZ |
 //! | volume with the apex in place of the origin | 11: three differences more | 4·6·XYZ |
-//! | D = G·w − V·d_w for the rates | 21: G 16 (rate 9, product 14, two sums), product 18, two sums, difference | 4·6·XYZ·R |
-//! | N, the same for squares | 17: G 12 (square 5, product 10, two sums), product 14, two sums, difference | 4·6·XYZ·L |
+//! | D = Σ V_i·d_i − V·d_w, V_i with the apex in place of vertex i | 21: rate 9, product 18, two sums, difference | 4·6·XYZ·R |
+//! | N, the same for squares | 17: square 5, product 14, two sums, difference | 4·6·XYZ·L |
+//!
+//! D and N as G·w − V·d_w with the gradient G, which rounded times take for the values of plain doubles, have the same
+//! index and magnitude: for D, G 16 (rate 9, product 14, two sums), product 18, two sums, difference.
 //!
 //! The bounds of this kind are used where X, Y and Z are in [2^−150, 2^150] and R is in [2^−450, 2^450]. Nothing overflows
 //! then: all is below 2^(450+450+20). Products may underflow, and the terms T of that proof, 2^−1022 times the other factors of
@@ -30,23 +34,39 @@
 //! underflows towards 0, the nearest multiple then), and so is rounding to an integer.
 
 use super::motion::Motion;
-use crate::mesh::VertexId;
-use crate::number::{Approx, Number, Sign, Vec3};
+use crate::machine::prefetch;
+use crate::mesh::{VertexId, slot_of};
+use crate::number::{Approx, Sign, Vec3};
 use crate::predicate::PointStore;
 use crate::predicate::formula::Lifted;
 
 /// The error index of an orient3d determinant of given doubles; see [`Approx`].
 const RATE_INDEX: u32 = 8;
 
-/// The magnitude of a vertex that has not been computed yet.
-const UNKNOWN: f64 = -1.0;
+/// A vertex: position and rate. NaN positions where they are not doubles: then nothing is certain.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+struct Moving([f64; 4]);
+
+impl Moving {
+    /// One that has not been computed yet: no position is infinite.
+    const UNKNOWN: Moving = Moving([f64::INFINITY; 4]);
+
+    #[inline(always)]
+    fn is_known(&self) -> bool {
+        self.0[0] != f64::INFINITY
+    }
+}
 
 /// Evaluates circuits in floats.
 pub(super) struct Filter<'a, P> {
     motion: &'a Motion<'a, P>,
-    /// Position, rate, and magnitude of the rate, by the vertices' numbers. NaN positions where they are not doubles: then
-    /// nothing is certain.
-    known: Vec<[f64; 5]>,
+    /// By the vertices' numbers.
+    known: Vec<Moving>,
+    /// Of the rates of those that are known.
+    largest_magnitude: f64,
+    /// The bound of D times 1/(XYZ); infinite where the bounds do not hold.
+    rising_bound: f64,
     grid: Grid,
 }
 
@@ -124,20 +144,24 @@ impl Bounded {
 /// A tetrahedron in floats: what the evaluations of its facets have in common.
 pub struct LiftedTet {
     ids: [VertexId; 4],
-    origin: [f64; 5],
-    others: [[f64; 5]; 3],
+    origin: Moving,
+    /// The places of the others relative to the origin.
+    others: [Vec3<f64>; 3],
+    /// Their rates relative to that of the origin.
+    rates: [f64; 3],
     lifted: Lifted<f64>,
-    /// G for the rates.
-    rising: Vec3<f64>,
-    /// X, Y, Z and R, as far as the tetrahedron itself goes.
-    largest: [f64; 4],
+    /// X, Y and Z, as far as the tetrahedron itself goes.
+    largest: [f64; 3],
 }
 
 /// The apex across a facet of a lifted tetrahedron.
 pub(super) struct Across {
-    apex: [f64; 5],
-    /// Its place relative to the origin.
+    apex: VertexId,
+    /// Its place and its rate relative to the origin.
     w: Vec3<f64>,
+    rate: f64,
+    /// The volumes of the tetrahedron with the apex in place of the others.
+    volumes: [f64; 3],
     /// X·Y·Z, and L; infinite where the bounds do not hold.
     product: f64,
     squares: f64,
@@ -155,6 +179,8 @@ impl<'a, P: PointStore> Filter<'a, P> {
         Filter {
             motion,
             known: Vec::new(),
+            largest_magnitude: 0.0,
+            rising_bound: f64::INFINITY,
             grid: Grid {
                 coefficient: quantum(3),
                 numerator: quantum(5),
@@ -164,59 +190,70 @@ impl<'a, P: PointStore> Filter<'a, P> {
     }
 
     #[inline(always)]
-    fn vertex(&mut self, v: VertexId) -> [f64; 5] {
+    fn vertex(&mut self, v: VertexId) -> Moving {
         let number = self.motion.number(v);
         match self.known.get(number) {
-            Some(known) if known[4] != UNKNOWN => *known,
+            Some(known) if known.is_known() => *known,
             _ => self.know(v, number),
         }
     }
 
     #[cold]
-    fn know(&mut self, v: VertexId, number: usize) -> [f64; 5] {
+    fn know(&mut self, v: VertexId, number: usize) -> Moving {
         if number >= self.known.len() {
-            self.known.resize(number + 1, [UNKNOWN; 5]);
+            self.known.resize(number + 1, Moving::UNKNOWN);
         }
         let double = |x: &Approx| if x.index() == 0 { x.value() } else { f64::NAN };
-        let [x, y, z] = self
-            .motion
-            .points
-            .coordinates::<Approx>(v)
-            .0
-            .each_ref()
-            .map(double);
+        let position = self.motion.points.coordinates::<Approx>(v);
+        let [x, y, z] = position.0.each_ref().map(double);
         let rate = self.motion.rate::<Approx>(v);
-        debug_assert!(rate.index() <= RATE_INDEX || x.is_nan() || y.is_nan() || z.is_nan());
-        self.known[number] = [x, y, z, rate.value(), rate.magnitude()];
+        let is_double = !(x.is_nan() || y.is_nan() || z.is_nan());
+        debug_assert!(rate.index() <= RATE_INDEX || !is_double);
+        if is_double {
+            self.largest_magnitude = self.largest_magnitude.max(rate.magnitude());
+            let r = 2.0 * self.largest_magnitude;
+            let holds = (2f64.powi(-450)..=2f64.powi(450)).contains(&r);
+            self.rising_bound = if holds {
+                RISING_BOUND * r
+            } else {
+                f64::INFINITY
+            };
+        }
+        self.known[number] = Moving([x, y, z, rate.value()]);
         self.known[number]
+    }
+
+    /// Lets the processor fetch a vertex, where that takes no look elsewhere.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, v: VertexId) {
+        if self.motion.is_of_few() {
+            prefetch(&self.known, v.index());
+        }
     }
 
     /// Prepares the evaluation of the facets of a positive tetrahedron.
     #[inline(always)]
     pub(super) fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
-        let [o, a, b, c] = tet;
-        let origin = self.vertex(o);
-        let others = [self.vertex(a), self.vertex(b), self.vertex(c)];
-        let [a, b, c] = &others;
-        let (pa, pb, pc) = (
-            from_origin::<f64>(a, &origin),
-            from_origin::<f64>(b, &origin),
-            from_origin::<f64>(c, &origin),
-        );
-        let lifted = Lifted::new([&pa, &pb, &pc]);
-        let rate = |p: &[f64; 5]| p[3] - origin[3];
-        let largest = |i: usize| pa.0[i].abs().max(pb.0[i].abs()).max(pc.0[i].abs());
+        let origin = self.vertex(tet[0]);
+        let others = [
+            self.vertex(tet[1]),
+            self.vertex(tet[2]),
+            self.vertex(tet[3]),
+        ];
+        let [a, b, c] = [
+            from_origin(&others[0], &origin),
+            from_origin(&others[1], &origin),
+            from_origin(&others[2], &origin),
+        ];
+        let lifted = Lifted::new([&a, &b, &c]);
+        let rate = |i: usize| others[i].0[3] - origin.0[3];
+        let largest = |i: usize| larger(larger(a.0[i].abs(), b.0[i].abs()), c.0[i].abs());
         LiftedTet {
             ids: tet,
-            rising: lifted.gradient([&rate(a), &rate(b), &rate(c)]),
-            largest: [
-                largest(0),
-                largest(1),
-                largest(2),
-                a[4].max(b[4]).max(c[4]) + origin[4],
-            ],
+            rates: [rate(0), rate(1), rate(2)],
+            largest: [largest(0), largest(1), largest(2)],
             origin,
-            others,
+            others: [a, b, c],
             lifted,
         }
     }
@@ -224,31 +261,39 @@ impl<'a, P: PointStore> Filter<'a, P> {
     /// D for the tetrahedron and the apex across one of its facets; `None` if certainly D ≤ 0.
     #[inline(always)]
     pub(super) fn across(&mut self, tet: &LiftedTet, apex: VertexId) -> Option<Across> {
-        let apex = self.vertex(apex);
-        let w = from_origin::<f64>(&apex, &tet.origin);
-        let larger = |i: usize| tet.largest[i].max(w.0[i].abs());
-        let (x, y, z) = (larger(0), larger(1), larger(2));
-        let r = tet.largest[3].max(apex[4] + tet.origin[4]);
-        let holds = in_range(x, 150) & in_range(y, 150) & in_range(z, 150) & in_range(r, 450);
-        let product = if holds { x * y * z } else { f64::INFINITY };
+        let moving = self.vertex(apex);
+        let w = from_origin(&moving, &tet.origin);
+        let largest = |i: usize| larger(tet.largest[i], w.0[i].abs());
+        let (x, y, z) = (largest(0), largest(1), largest(2));
+        let squares = x * x + y * y + z * z;
+        let mut product = x * y * z;
+        // No square is more than their sum.
+        if (squares > 2f64.powi(300)) | (smaller(smaller(x, y), z) < 2f64.powi(-150)) {
+            product = f64::INFINITY;
+        }
+        let rate = moving.0[3] - tet.origin.0[3];
+        let volumes = tet.lifted.with_in_place(&w);
         let d = Bounded {
-            value: tet
-                .lifted
-                .below(&tet.rising, &w, &(apex[3] - tet.origin[3])),
-            error: RISING_BOUND * product * r,
+            value: weighted(&volumes, &tet.rates) - tet.lifted.volume() * rate,
+            error: self.rising_bound * product,
         };
         let mut across = Across {
             apex,
             w,
+            rate,
+            volumes,
             product,
-            squares: x * x + y * y + z * z,
+            squares,
             d,
         };
         let quantum = self.grid.denominator;
-        let sign = across.d.sign_on_grid(quantum).or_else(|| {
-            across.d = in_approx(tet, &across).rising();
-            across.d.sign_on_grid(quantum)
-        });
+        let sign = match across.d.sign_on_grid(quantum) {
+            Some(sign) => Some(sign),
+            None => {
+                across.d = self.in_approx(tet, &across).rising();
+                across.d.sign_on_grid(quantum)
+            }
+        };
         (!matches!(sign, Some(Sign::Negative | Sign::Zero))).then_some(across)
     }
 
@@ -256,16 +301,26 @@ impl<'a, P: PointStore> Filter<'a, P> {
     #[inline(always)]
     pub(super) fn resting(&self, tet: &LiftedTet, across: &Across) -> Bounded {
         let [a, b, c] = &tet.others;
-        let square = |p: &[f64; 5]| {
-            let p = from_origin::<f64>(p, &tet.origin);
-            p.dot(&p)
-        };
-        let gradient = tet.lifted.gradient([&square(a), &square(b), &square(c)]);
+        let squares = [a.dot(a), b.dot(b), c.dot(c)];
         let height = across.w.dot(&across.w);
         Bounded {
-            value: tet.lifted.below(&gradient, &across.w, &height),
+            value: weighted(&across.volumes, &squares) - tet.lifted.volume() * height,
             error: RESTING_BOUND * across.product * across.squares,
         }
+    }
+
+    /// N and D as plain doubles give them by way of the gradients.
+    #[inline(always)]
+    pub(super) fn plain(&self, tet: &LiftedTet, across: &Across) -> [f64; 2] {
+        let [a, b, c] = &tet.others;
+        let below = |heights: [f64; 3], height: f64| {
+            let gradient = tet.lifted.gradient(heights.each_ref());
+            tet.lifted.below(&gradient, &across.w, &height)
+        };
+        [
+            below([a.dot(a), b.dot(b), c.dot(c)], across.w.dot(&across.w)),
+            below(tet.rates, across.rate),
+        ]
     }
 
     /// N and D in quanta, if they are certain.
@@ -285,7 +340,7 @@ impl<'a, P: PointStore> Filter<'a, P> {
             Some([n, d])
         };
         integers(n, &across.d).or_else(|| {
-            let approx = in_approx(tet, across);
+            let approx = self.in_approx(tet, across);
             integers(&approx.resting(), &approx.rising())
         })
     }
@@ -304,7 +359,7 @@ impl<'a, P: PointStore> Filter<'a, P> {
         // Written out: array::map is not always inlined.
         let sign = |i: usize| match volumes[i].sign_on_grid(quantum) {
             Some(sign) => Some(-sign),
-            None => in_approx(tet, across).sign_of_coefficient(i, quantum),
+            None => self.in_approx(tet, across).sign_of_coefficient(i, quantum),
         };
         [sign(x), sign(y), sign(z)]
     }
@@ -330,24 +385,55 @@ impl<'a, P: PointStore> Filter<'a, P> {
             Some([v, x, y, z, volume.in_quanta(quantum)?])
         };
         let plain = plain_volumes(tet, across);
-        in_quanta(plain).or_else(|| in_quanta(in_approx(tet, across).volumes()))
+        in_quanta(plain).or_else(|| in_quanta(self.in_approx(tet, across).volumes()))
+    }
+
+    /// The same evaluations with running error bounds.
+    #[cold]
+    #[inline(never)]
+    fn in_approx(&self, tet: &LiftedTet, across: &Across) -> InApprox {
+        let known = |v: VertexId| self.known[self.motion.number(v)];
+        let position = |v: VertexId| {
+            let Moving([x, y, z, _]) = known(v);
+            Vec3::<Approx>::from_f64([x, y, z])
+        };
+        let rate =
+            |v: VertexId| Approx::with_bound(known(v).0[3], self.largest_magnitude, RATE_INDEX);
+        let [o, a, b, c] = tet.ids;
+        let (origin, at_origin) = (position(o), rate(o));
+        let others = [a, b, c].map(|v| position(v).sub(&origin));
+        InApprox {
+            lifted: Lifted::new(others.each_ref()),
+            rates: [a, b, c].map(|v| rate(v) - &at_origin),
+            w: position(across.apex).sub(&origin),
+            rate: rate(across.apex) - &at_origin,
+            others,
+        }
     }
 }
 
-/// Whether 2^−k ≤ x ≤ 2^k.
+/// The larger of two numbers, one instruction; NaN if the second one is.
 #[inline(always)]
-fn in_range(x: f64, k: i32) -> bool {
-    (2f64.powi(-k)..=2f64.powi(k)).contains(&x)
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers; NaN if the second one is.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// Σ V_i·h_i.
+#[inline(always)]
+fn weighted(volumes: &[f64; 3], heights: &[f64; 3]) -> f64 {
+    volumes[0] * heights[0] + volumes[1] * heights[1] + volumes[2] * heights[2]
 }
 
 /// Where v, x, y, z are in the lifted tetrahedron.
 #[inline(always)]
 fn places(tet: &LiftedTet, [v, x, y, z, _]: [VertexId; 5]) -> [usize; 4] {
-    let [_, a, b, c] = tet.ids;
-    let place = |p: VertexId| {
-        debug_assert!(tet.ids.contains(&p), "v, x, y, z are its vertices");
-        usize::from(a == p) | (usize::from(b == p) << 1) | (3 * usize::from(c == p))
-    };
+    let place = |p: VertexId| slot_of(&tet.ids, p);
     [place(v), place(x), place(y), place(z)]
 }
 
@@ -355,7 +441,7 @@ fn places(tet: &LiftedTet, [v, x, y, z, _]: [VertexId; 5]) -> [usize; 4] {
 #[inline(always)]
 fn plain_volumes(tet: &LiftedTet, across: &Across) -> [Bounded; 5] {
     let volume = *tet.lifted.volume();
-    let [a, b, c] = tet.lifted.with_in_place(&across.w);
+    let [a, b, c] = across.volumes;
     let bounded = |value: f64, bound: f64| Bounded {
         value,
         error: bound * across.product,
@@ -376,20 +462,6 @@ struct InApprox {
     lifted: Lifted<Approx>,
     w: Vec3<Approx>,
     rate: Approx,
-}
-
-#[cold]
-#[inline(never)]
-fn in_approx(tet: &LiftedTet, across: &Across) -> InApprox {
-    let others = tet.others.each_ref().map(|p| from_origin(p, &tet.origin));
-    let [a, b, c] = &others;
-    InApprox {
-        lifted: Lifted::new([a, b, c]),
-        rates: tet.others.each_ref().map(|p| relative_rate(p, &tet.origin)),
-        w: from_origin(&across.apex, &tet.origin),
-        rate: relative_rate(&across.apex, &tet.origin),
-        others,
-    }
 }
 
 impl InApprox {
@@ -419,15 +491,7 @@ impl InApprox {
 
 /// p − origin.
 #[inline(always)]
-fn from_origin<N: Number>(p: &[f64; 5], origin: &[f64; 5]) -> Vec3<N> {
-    let position = |&[x, y, z, _, _]: &[f64; 5]| Vec3::<N>::from_f64([x, y, z]);
-    position(p).sub(&position(origin))
-}
-
-/// The rate at p less that at the origin.
-#[inline(always)]
-fn relative_rate(p: &[f64; 5], origin: &[f64; 5]) -> Approx {
-    let rate =
-        |&[_, _, _, value, magnitude]: &[f64; 5]| Approx::with_bound(value, magnitude, RATE_INDEX);
-    rate(p) - &rate(origin)
+fn from_origin(p: &Moving, origin: &Moving) -> Vec3<f64> {
+    let (p, origin) = (&p.0, &origin.0);
+    Vec3([p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]])
 }

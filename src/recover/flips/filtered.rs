@@ -42,8 +42,26 @@ use std::cmp::Ordering;
 /// A float enclosure of a time, multiplied by [`FilteredTimes`]' scale: it is within `width` of `middle`.
 #[derive(Clone, Copy, Debug)]
 pub struct Enclosure {
-    middle: f64,
+    /// The bits of a double: twelve bytes with the width, not sixteen.
+    middle: [u32; 2],
     width: f32,
+}
+
+impl Enclosure {
+    #[inline(always)]
+    fn new(middle: f64, width: f32) -> Enclosure {
+        let bits = middle.to_bits();
+        Enclosure {
+            middle: [bits as u32, (bits >> 32) as u32],
+            width,
+        }
+    }
+
+    #[inline(always)]
+    fn middle(self) -> f64 {
+        let [low, high] = self.middle;
+        f64::from_bits(u64::from(high) << 32 | u64::from(low))
+    }
 }
 
 /// Where the exact quotient of a time is kept: 0, or 1 + its place in [`FilteredTimes`]' list.
@@ -184,6 +202,11 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
     }
 
     #[inline]
+    fn prefetch(&self, v: VertexId) {
+        self.filter.prefetch(v);
+    }
+
+    #[inline]
     fn time_across(
         &mut self,
         lift: &LiftedTet,
@@ -197,9 +220,8 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
         }
         if !across.d.is_positive() {
             let quotient = self.exact.exact_quotient(circuit)?;
-            let (middle, width) = (0.0, f32::INFINITY);
             return Some(Timing {
-                key: Enclosure { middle, width },
+                key: Enclosure::new(0.0, f32::INFINITY),
                 time: self.keep(Exactly::Big(Box::new(quotient))),
                 signs,
             });
@@ -217,21 +239,18 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
         };
         let (middle, width) = enclosure(&n, &across.d);
         let scale = *self.scale.get_or_insert_with(|| inverse_power(middle));
-        let key = Enclosure {
-            middle: middle * scale,
-            width: ((width * scale) as f32).next_up(),
-        };
+        let key = Enclosure::new(middle * scale, ((width * scale) as f32).next_up());
         Some(Timing { key, time, signs })
     }
 
     #[inline]
     fn about(key: Enclosure) -> Option<f64> {
-        Some(key.middle)
+        Some(key.middle())
     }
 
     #[inline]
     fn compare_keys(a: Enclosure, b: Enclosure) -> Option<Ordering> {
-        let gap = b.middle - a.middle;
+        let gap = b.middle() - a.middle();
         let widths = (f64::from(a.width) + f64::from(b.width)) * (1.0 + 4.0 * f64::EPSILON);
         if gap > widths {
             Some(Ordering::Less)
@@ -357,7 +376,7 @@ mod tests {
                 prop_assert_eq!(f.is_some(), e.is_some());
                 prop_assert_eq!(f.is_some(), r.is_some());
                 let (Some(f), Some(e), Some(r)) = (f, e, r) else { continue };
-                let Enclosure { middle, width } = f.key;
+                let (middle, width) = (f.key.middle(), f.key.width);
                 let (n, d) = r.time.parts();
                 if width.is_finite() && middle.is_finite() {
                     let rational = <BigRational as Number>::from_f64;

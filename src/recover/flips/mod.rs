@@ -4,6 +4,7 @@
 //! the queue is that of a [`FlipTimes`]: rounded quotients as in the paper, with the paper's three patches (§3.3), each
 //! counted; or exact quotients with the perturbation of the weights, which need no patch.
 
+mod compact;
 mod deletion;
 mod event;
 mod filter;
@@ -11,6 +12,7 @@ mod filtered;
 mod motion;
 mod moves;
 mod queue;
+mod room;
 mod rounded;
 mod run;
 mod time;
@@ -23,15 +25,14 @@ pub use filtered::{Enclosure, FilteredTime, FilteredTimes};
 pub use motion::{LeftVertices, Motion, VertexNumbers};
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
+pub use room::Room;
 pub use rounded::RoundedTimes;
 pub use run::{FlipScratch, Flipped, flip_delete, flip_insert};
 pub use time::{ExactTimes, FlipTimes, Float, Quotient, Timed, Timing, Undecided};
 pub use watch::{Fate, Watch};
 pub use wide::WideTimes;
 
-use super::region::Region;
-use super::scratch::Table;
-use super::side::{Side, Sides};
+use super::side::{Side, Sides, crossing_facets};
 use crate::clock::{Task, TaskClock};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::number::Sign;
@@ -146,49 +147,44 @@ type Created = ArrayVec<TetId, 4>;
 /// Edges whose flips have been queued in one round of certifications: of at most four tetrahedra.
 type Edges = ArrayVec<[VertexId; 3], 16>;
 
+/// How many events ahead of the next one memory is fetched for.
+const FAR: usize = 16;
+
+/// A region of so many tetrahedra does not fit into a processor's first cache.
+const LARGE: usize = 1000;
+
 /// The insertion of one missing region of a polygon.
-pub struct FlipInsertion<'a, P, C: FlipTimes> {
+pub struct FlipInsertion<'a, P, C: FlipTimes, R> {
     mesh: &'a mut TetMesh,
-    sides: &'a Sides<'a, P>,
+    points: &'a P,
+    /// R, and the sides of f.
+    room: &'a mut R,
     times: C,
     queue: FlipQueue<C>,
-    /// Which tetrahedra fill R now.
-    region: &'a mut Table<bool>,
     /// The list L of §3.3.
     postponed: Vec<Event>,
     counts: FlipCounts,
+    /// Whether to fetch from memory ahead of time.
+    is_large: bool,
     /// In an inexact order nothing proves that the flips come to an end: all are refused after this many.
     most_flips: u64,
     watch: Option<&'a mut dyn Watch>,
     clock: Option<&'a mut TaskClock>,
 }
 
-impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
-    /// Prepares the insertion into `region`. `marks` is a table for marking tetrahedra, kept from region to region.
-    pub fn new(
-        mesh: &'a mut TetMesh,
-        sides: &'a Sides<'a, P>,
-        region: &Region,
-        times: C,
-        marks: &'a mut Table<bool>,
-    ) -> Self {
-        marks.clear();
-        for t in &region.tets {
-            marks.set(t.index(), true);
-        }
+impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
+    /// Prepares the insertion into a region.
+    pub fn new(mesh: &'a mut TetMesh, points: &'a P, room: &'a mut R, times: C) -> Self {
         FlipInsertion {
             mesh,
-            sides,
+            points,
+            room,
             times,
             queue: FlipQueue::earliest_first(),
-            region: marks,
             postponed: Vec::new(),
             counts: FlipCounts::default(),
-            most_flips: if C::EXACT {
-                u64::MAX
-            } else {
-                most_flips(region.tets.len())
-            },
+            is_large: false,
+            most_flips: u64::MAX,
             watch: None,
             clock: None,
         }
@@ -221,21 +217,22 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         }
     }
 
-    /// FlipInsertPolygon of Fig. 7. O(n log n) comparisons for n events. Returns the tetrahedra that fill R afterwards,
-    /// sorted; whatever the outcome, they fill R.
-    pub fn insert(mut self, region: &Region) -> (FlipOutcome, Vec<TetId>, FlipCounts) {
-        for corners in region
-            .crossing_triangles(self.mesh, self.sides)
-            .chunk_by(|a, b| a.tet() == b.tet())
-        {
-            let lift = self.times.lift(self.mesh.vertices(corners[0].tet()));
-            for &s in corners {
-                self.certify(s, &lift, &mut Edges::new());
-            }
+    /// FlipInsertPolygon of Fig. 7, for R as it is filled by the given tetrahedra. O(n log n) comparisons for n events.
+    /// Whatever the outcome, the tetrahedra of the room fill R afterwards; whether crossing ones are left is not looked at.
+    pub fn insert(
+        mut self,
+        tets: impl ExactSizeIterator<Item = TetId>,
+    ) -> (FlipOutcome, FlipCounts) {
+        self.is_large = tets.len() > LARGE;
+        if !C::EXACT {
+            self.most_flips = most_flips(tets.len());
+        }
+        for t in tets {
+            self.certify_facets(t, |s, twin| s < twin, &mut Edges::new());
         }
         self.end(Task::Queueing);
         let mut outcome = FlipOutcome::Done;
-        while let Some(event) = self.queue.pop(&mut self.times) {
+        while let Some(event) = self.next_event() {
             let Some(s) = event.corner_if_alive(self.mesh) else {
                 self.counts.stale += 1;
                 self.tell(event.circuit, Fate::Stale);
@@ -268,25 +265,40 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
                 }
             }
         }
-        self.finish(outcome)
-    }
-
-    fn finish(mut self, mut outcome: FlipOutcome) -> (FlipOutcome, Vec<TetId>, FlipCounts) {
-        let tets: Vec<TetId> = self.region.ids().into_iter().map(TetId).collect();
-        let crosses = |&&t: &&TetId| self.sides.crosses_tet(self.mesh, t);
-        let crossing = tets.iter().filter(crosses).count();
-        if crossing > 0 && outcome == FlipOutcome::Done {
-            outcome = FlipOutcome::Stuck { crossing };
-        }
         if self.counts.flips() >= self.most_flips {
             outcome = FlipOutcome::Endless;
         }
         self.counts.record(&self.queue, &self.times);
-        if let Some(watch) = self.watch {
-            let vertices: Vec<_> = tets.iter().map(|&t| self.mesh.vertices(t)).collect();
-            watch.end(outcome, &vertices);
+        (outcome, self.counts)
+    }
+
+    /// The next event of the queue. What those after it will look at is fetched meanwhile: each place of the memory once it
+    /// is known from the one before.
+    #[inline]
+    fn next_event(&mut self) -> Option<Event> {
+        if self.is_large {
+            self.queue.prefetch(FAR);
+            if let Some(event) = self.queue.upcoming(FAR * 3 / 4) {
+                self.mesh.prefetch(event.tet);
+                for v in event.circuit {
+                    self.times.prefetch(v);
+                }
+            }
+            if let Some(event) = self.queue.upcoming(FAR / 2) {
+                self.mesh.prefetch_neighbors(event.tet);
+            }
+            if let Some(s) = self
+                .queue
+                .upcoming(FAR / 4)
+                .and_then(|event| event.corner_if_alive(self.mesh))
+            {
+                for &twin in self.mesh.tet(s.tet()).1 {
+                    self.times.prefetch(self.mesh.vertex(twin));
+                }
+                self.mesh.prefetch_neighbors(self.mesh.neighbor(s));
+            }
         }
-        (outcome, tets, self.counts)
+        self.queue.pop(&mut self.times)
     }
 
     /// Certify of Fig. 7: queues the crossing triangle opposite corner `s` if it must be flipped at some time.
@@ -297,8 +309,8 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     /// one is then certified; if there is none the whole star is new, and inside of a 2-3 flip, whose circuit has been
     /// flipped already. The paper queues more, and so do we with rounded times.
     fn certify(&mut self, s: Corner, lift: &C::Lift, done: &mut Edges) {
-        let circuit = event::circuit(self.mesh, s);
-        let (mesh, points) = (&*self.mesh, self.sides.points());
+        let (mesh, points) = (&*self.mesh, self.points);
+        let circuit = event::circuit(mesh, s);
         let mut edge = None;
         let is_wanted = |signs| {
             let flip = flip_of_triangle(points, mesh, s, signs);
@@ -328,20 +340,38 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         let two_flips = created.len() == 4;
         let mut done = Edges::new();
         for &t in created {
-            let crossing = self.sides.crossing_facets(&self.mesh.vertices(t));
-            let corners = (0..4).filter(|slot| crossing[*slot]).map(|s| t.corner(s));
-            let is_boundary = |&s: &Corner| {
-                let twin = self.mesh.twin(s);
-                let outer = !created.contains(&twin.tet()) || (two_flips && s < twin);
-                outer && self.region.get(twin.tet().index())
-            };
-            let corners: ArrayVec<Corner, 4> = corners.filter(is_boundary).collect();
-            if !corners.is_empty() {
-                let lift = self.times.lift(self.mesh.vertices(t));
-                for s in corners {
-                    self.certify(s, &lift, &mut done);
+            let is_boundary = |s: Corner, twin: Corner| {
+                let mut is_inner = false;
+                for &t in created {
+                    is_inner |= t == twin.tet();
                 }
-            }
+                !is_inner || (two_flips && s < twin)
+            };
+            self.certify_facets(t, is_boundary, &mut done);
+        }
+    }
+
+    /// Certifies those crossing triangles of a tetrahedron, between two of R, that are chosen by corner and twin.
+    #[inline(always)]
+    fn certify_facets(
+        &mut self,
+        t: TetId,
+        is_chosen: impl Fn(Corner, Corner) -> bool,
+        done: &mut Edges,
+    ) {
+        let (vertices, twins) = self.mesh.tet(t);
+        let mut chosen = crossing_facets(self.room.left_and_right(vertices));
+        for (slot, &twin) in twins.iter().enumerate() {
+            let is_chosen = is_chosen(t.corner(slot), twin) && self.room.contains(twin.tet());
+            chosen &= !(u8::from(!is_chosen) << slot);
+        }
+        if chosen == 0 {
+            return;
+        }
+        let lift = self.times.lift(*vertices);
+        while chosen != 0 {
+            self.certify(t.corner(chosen.trailing_zeros() as usize), &lift, done);
+            chosen &= chosen - 1;
         }
     }
 
@@ -354,19 +384,18 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
         if self.counts.flips() >= self.most_flips {
             return Err(Refused::Endless);
         }
-        let flip = flip_of_triangle(self.sides.points(), self.mesh, s, signs)
-            .ok_or(Refused::Impossible)?;
-        if !flip.old().iter().all(|t| self.region.get(t.index())) {
+        let flip = flip_of_triangle(self.points, self.mesh, s, signs).ok_or(Refused::Impossible)?;
+        if !flip.old().iter().all(|&t| self.room.contains(t)) {
             return Err(Refused::OutsideRegion);
         }
         let created = flip.perform(self.mesh);
         match flip {
             Flip::TwoThree(..) => {
-                self.region.set(created[2].index(), true);
+                self.room.enter(created[2]);
                 self.counts.two_three += 1;
             }
             Flip::ThreeTwo([_, _, gone], _) => {
-                self.region.reset(gone.index());
+                self.room.leave(gone);
                 self.counts.three_two += 1;
             }
             Flip::FourFour(..) => self.counts.four_four += 1,
@@ -407,13 +436,12 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     /// The second patch: makes the triangles between non-crossing tetrahedra of R locally Delaunay, starting with those
     /// of `created`. (Lawson's algorithm; it can get stuck, and then leaves the triangle.)
     fn restore_non_crossing(&mut self, created: &[TetId]) {
-        let non_crossing = |t: &&TetId| !self.sides.crosses_tet(self.mesh, **t);
-        if created.iter().find(non_crossing).is_none() {
+        if created.iter().all(|&t| self.crosses(t)) {
             return;
         }
         let mut pending: Vec<TetId> = created.to_vec();
         while let Some(t) = pending.pop() {
-            if !self.region.get(t.index()) || self.sides.crosses_tet(self.mesh, t) {
+            if !self.room.contains(t) || self.crosses(t) {
                 continue;
             }
             let bad = (0..4)
@@ -434,14 +462,17 @@ impl<'a, P: PointStore, C: FlipTimes> FlipInsertion<'a, P, C> {
     fn is_bad_non_crossing(&self, s: Corner) -> bool {
         let n = self.mesh.neighbor(s);
         let facet = self.mesh.facet(s);
-        if !self.region.get(n.index())
-            || self.sides.crosses_tet(self.mesh, n)
-            || facet.iter().all(|&v| self.sides.of(v) == Side::On)
-        {
+        if !self.room.contains(n) || self.crosses(n) || facet.iter().all(|&v| self.room.is_on(v)) {
             return false;
         }
         let circuit = event::circuit(self.mesh, s);
-        self.sides.points().insphere(circuit).is_positive()
+        self.points.insphere(circuit).is_positive()
+    }
+
+    /// Whether a tetrahedron of R has vertices on both sides of f.
+    fn crosses(&self, t: TetId) -> bool {
+        let [left, right] = self.room.left_and_right(&self.mesh.vertices(t));
+        left != 0 && right != 0
     }
 }
 
@@ -470,12 +501,15 @@ pub fn polygon_faces<P: PointStore>(
     sides: &Sides<P>,
     region: &[TetId],
 ) -> Vec<[VertexId; 3]> {
-    let corners = region
-        .iter()
-        .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
-    corners
-        .filter(|&c| sides.of(mesh.vertex(c)) == Side::Left)
-        .map(|c| mesh.facet(c))
-        .filter(|facet| facet.iter().all(|&v| sides.of(v) == Side::On))
-        .collect()
+    let mut faces = Vec::new();
+    for &t in region {
+        let [left, right] = sides.left_and_right(&mesh.vertices(t));
+        if left.is_power_of_two() && right == 0 {
+            let facet = mesh.facet(t.corner(left.trailing_zeros() as usize));
+            if facet.iter().all(|&v| sides.of(v) == Side::On) {
+                faces.push(facet);
+            }
+        }
+    }
+    faces
 }

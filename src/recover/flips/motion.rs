@@ -15,8 +15,8 @@ pub struct Motion<'a, P> {
     pub(super) points: &'a P,
     frame: [VertexId; 3],
     is_left: LeftVertices<'a>,
-    /// 1 + the number of each vertex in order of first use; 0 if not used yet.
-    numbers: RefCell<VertexNumbers>,
+    /// 1 + the number of each vertex in order of first use, 0 if not used yet; `None` if ids are small numbers already.
+    numbers: Option<RefCell<VertexNumbers>>,
 }
 
 /// A table that numbers the vertices of one region; kept from region to region for its memory.
@@ -45,27 +45,49 @@ impl<'a, P: PointStore> Motion<'a, P> {
             points,
             frame,
             is_left,
-            numbers: RefCell::new(numbers),
+            numbers: Some(RefCell::new(numbers)),
+        }
+    }
+
+    /// The same for a store that has the region's vertices alone.
+    pub(super) fn of_few(
+        points: &'a P,
+        frame: [VertexId; 3],
+        is_left: LeftVertices<'a>,
+    ) -> Motion<'a, P> {
+        Motion {
+            points,
+            frame,
+            is_left,
+            numbers: None,
         }
     }
 
     /// The memory given to [`Motion::with_numbers`].
     pub fn into_numbers(self) -> VertexNumbers {
-        self.numbers.into_inner()
+        self.numbers.map(RefCell::into_inner).unwrap_or_default()
     }
 
     /// A small number for each vertex that is asked for: 0, 1, 2, …
     #[inline(always)]
     pub(super) fn number(&self, v: VertexId) -> usize {
-        let known = self.numbers.borrow().table.get(v.index());
+        let Some(numbers) = &self.numbers else {
+            return v.index();
+        };
+        let known = numbers.borrow().table.get(v.index());
         if known > 0 {
             return (known - 1) as usize;
         }
-        let mut numbers = self.numbers.borrow_mut();
+        let mut numbers = numbers.borrow_mut();
         numbers.used += 1;
         let number = numbers.used;
         numbers.table.set(v.index(), number);
         (number - 1) as usize
+    }
+
+    /// Whether ids are small numbers already.
+    pub(super) fn is_of_few(&self) -> bool {
+        self.numbers.is_none()
     }
 
     /// The rate d_v.

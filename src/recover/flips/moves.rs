@@ -1,6 +1,6 @@
 //! The bistellar flips of a tetrahedralization: 2-3, 3-2, 4-4 (Shewchuk 2003).
 
-use crate::mesh::{Corner, TetId, TetMesh, VertexId};
+use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId, slot_of};
 use crate::number::Sign;
 use crate::predicate::PointStore;
 use arrayvec::ArrayVec;
@@ -82,35 +82,38 @@ fn around_new_edge([v, x, y, z, w]: [VertexId; 5]) -> [[VertexId; 4]; 3] {
 /// tetrahedra. If it meets one edge, v, w and the edge are coplanar: 4-4, if it has four tetrahedra.
 ///
 /// `signs` are those of the circuit's coefficients c_x, c_y, c_z, where they are known; c_x = −orient3d(v, w, y, z).
+#[inline(always)]
 pub fn flip_of_triangle<P: PointStore>(
     points: &P,
     mesh: &TetMesh,
     c: Corner,
     signs: [Option<Sign>; 3],
 ) -> Option<Flip> {
-    let (t1, t2) = (c.tet(), mesh.neighbor(c));
-    let v = mesh.vertex(c);
-    let [x, y, z] = mesh.facet(c);
-    let w = mesh.apex_across(c);
+    let (t1, twin) = (c.tet(), mesh.twin(c));
+    let (old1, old2) = (mesh.tet(t1), mesh.tet(twin.tet()));
+    let slots = FACET[c.slot()];
+    let (v, w) = (old1.0[c.slot()], old2.0[twin.slot()]);
+    let facet = [old1.0[slots[0]], old1.0[slots[1]], old1.0[slots[2]]];
+    let [x, y, z] = facet;
     let circuit = [v, x, y, z, w];
-    let sign = |i: usize| -points.orient3d(around_new_edge(circuit)[i]);
-    let known = |i: usize| signs[i].unwrap_or_else(|| sign(i));
-    let signs = [known(0), known(1), known(2)];
-    let not_inside = |i: usize| !signs[i].is_negative();
-    let i = match (not_inside(0), not_inside(1), not_inside(2)) {
-        (false, false, false) => return Some(Flip::TwoThree([t1, t2], circuit)),
-        (true, false, false) => 0,
-        (false, true, false) => 1,
-        (false, false, true) => 2,
+    let inside = |i: usize| match signs[i] {
+        Some(sign) => sign,
+        None => -points.orient3d(around_new_edge(circuit)[i]),
+    };
+    let signs = [inside(0), inside(1), inside(2)];
+    let not_inside = |i: usize| u8::from(!signs[i].is_negative());
+    let i = match not_inside(0) | not_inside(1) << 1 | not_inside(2) << 2 {
+        0 => return Some(Flip::TwoThree([t1, twin.tet()], circuit)),
+        1 => 0,
+        2 => 1,
+        4 => 2,
         _ => return None,
     };
+    let t2 = twin.tet();
     // The edge pq that is not passed inside, and the third vertex of the triangle.
-    let r = [x, y, z][i];
-    let [p, q] = [[y, z], [z, x], [x, y]][i];
-    let (behind1, behind2) = (
-        mesh.twin(mesh.corner_of(t1, r)),
-        mesh.twin(mesh.corner_of(t2, r)),
-    );
+    let r = facet[i];
+    let [p, q] = [facet[(i + 1) % 3], facet[(i + 2) % 3]];
+    let (behind1, behind2) = (old1.1[slots[i]], old2.1[slot_of(old2.0, r)]);
     let (t3, t4) = (behind1.tet(), behind2.tet());
     if signs[i].is_positive() {
         return (t3 == t4).then_some(Flip::ThreeTwo([t1, t2, t3], [v, w, p, q, r]));

@@ -13,6 +13,7 @@
 
 use super::event::Event;
 use super::time::{FlipTimes, Timing};
+use crate::machine::prefetch;
 use std::cmp::Ordering;
 
 /// A span of at most so many events is not divided further.
@@ -41,6 +42,9 @@ pub struct FlipQueue<C: FlipTimes> {
     /// How many events have ever been queued.
     arrived: u32,
     comparisons: u64,
+    /// Memory for [`FlipQueue::distribute`].
+    buckets: Vec<u32>,
+    sorted: Vec<Entry<C::Key>>,
 }
 
 /// Events in the future.
@@ -78,6 +82,8 @@ impl<C: FlipTimes> FlipQueue<C> {
             }],
             arrived: 0,
             comparisons: 0,
+            buckets: Vec::new(),
+            sorted: Vec::new(),
         }
     }
 
@@ -97,6 +103,23 @@ impl<C: FlipTimes> FlipQueue<C> {
     /// The number of comparisons so far.
     pub fn comparisons(&self) -> u64 {
         self.comparisons
+    }
+
+    /// The event that comes so many places after the first one of those that are in order already, if there are so many.
+    #[inline]
+    pub(super) fn upcoming(&self, places: usize) -> Option<&Event> {
+        let entry = self.run.get(self.run.len().wrapping_sub(places + 1))?;
+        Some(&self.events[entry.event as usize].event)
+    }
+
+    /// Lets the processor fetch that event.
+    #[inline]
+    pub(super) fn prefetch(&self, places: usize) {
+        if let Some(entry) = self.run.get(self.run.len().wrapping_sub(places + 1)) {
+            // Both lines of the cache that it may be in.
+            prefetch(&self.events, entry.event as usize);
+            prefetch(&self.events, entry.event as usize + 1);
+        }
     }
 
     /// Inserts an event. O(log n) comparisons.
@@ -170,11 +193,12 @@ impl<C: FlipTimes> FlipQueue<C> {
     fn move_horizon(&mut self, times: &mut C) {
         while let Some(next) = self.spans.last() {
             // Both must come before: which of them is first may take an exact comparison.
-            let first = [self.run.last().copied(), self.heap.first().copied()];
-            let mut first = first.into_iter().flatten().peekable();
-            if let Some(horizon) = next.beginning
-                && first.peek().is_some()
-                && first.all(|entry| self.is_certain(entry.key, Ordering::Less, horizon))
+            let beginning = next.beginning;
+            let (run, heap) = (self.run.last().copied(), self.heap.first().copied());
+            if let Some(horizon) = beginning
+                && (run.is_some() || heap.is_some())
+                && run.is_none_or(|entry| self.is_certain(entry.key, Ordering::Less, horizon))
+                && heap.is_none_or(|entry| self.is_certain(entry.key, Ordering::Less, horizon))
             {
                 return;
             }
@@ -235,10 +259,14 @@ impl<C: FlipTimes> FlipQueue<C> {
         is_divided
     }
 
-    /// Sorts the run.
+    /// Sorts the run: into buckets by what its times are about, if that is known, and then by moving what is not in its
+    /// place. Where that is too much, by comparisons alone.
     fn sort_run(&mut self, times: &mut C) {
         let mut run = std::mem::take(&mut self.run);
-        if !self.sort_nearly_right(times, &mut run) {
+        let is_sorted = self.distribute(&mut run) && self.move_into_place(times, &mut run)
+            || sort_by_about::<C>(&mut run, self.latest_first)
+                && self.move_into_place(times, &mut run);
+        if !is_sorted {
             run.sort_unstable_by(|&a, &b| {
                 if self.precedes(times, a, b) {
                     Ordering::Greater
@@ -250,20 +278,51 @@ impl<C: FlipTimes> FlipQueue<C> {
         self.run = run;
     }
 
-    /// Sorts a run by what its times are about, if that is known, and moves what is not in its place then. Gives up where
-    /// that is too much, and says so.
-    fn sort_nearly_right(&mut self, times: &mut C, run: &mut [Entry<C::Key>]) -> bool {
-        let about = |entry: &Entry<C::Key>| C::about(entry.key);
-        if run.first().is_some_and(|first| about(first).is_none()) {
+    /// Brings a run into the order of as many buckets as it has entries, which divide its time evenly. `false` if it has no
+    /// times to divide.
+    fn distribute(&mut self, run: &mut Vec<Entry<C::Key>>) -> bool {
+        if run.len() < 2 {
+            return true;
+        }
+        let sign = if self.latest_first { -1.0 } else { 1.0 };
+        let about = |entry: &Entry<C::Key>| C::about(entry.key).map_or(f64::NAN, |t| sign * t);
+        let (mut first, mut last) = (f64::INFINITY, f64::NEG_INFINITY);
+        for entry in &*run {
+            let time = about(entry);
+            if !time.is_finite() {
+                return false;
+            }
+            first = first.min(time);
+            last = last.max(time);
+        }
+        let scale = run.len() as f64 / (last - first);
+        if !scale.is_finite() {
             return false;
         }
-        run.sort_unstable_by(|a, b| {
-            let (a, b) = (about(a).unwrap_or(0.0), about(b).unwrap_or(0.0));
-            b.total_cmp(&a)
-        });
-        if self.latest_first {
-            run.reverse();
+        // The last comes first.
+        let most = run.len() - 1;
+        let bucket = |entry: &Entry<C::Key>| (((last - about(entry)) * scale) as usize).min(most);
+        self.buckets.clear();
+        self.buckets.resize(run.len(), 0);
+        for entry in &*run {
+            self.buckets[bucket(entry)] += 1;
         }
+        let mut start = 0;
+        for n in &mut self.buckets {
+            start += std::mem::replace(n, start);
+        }
+        self.sorted.clear();
+        self.sorted.extend_from_slice(run);
+        for &entry in &self.sorted {
+            let place = &mut self.buckets[bucket(&entry)];
+            run[*place as usize] = entry;
+            *place += 1;
+        }
+        true
+    }
+
+    /// Moves what is not in its place in a run that is nearly in order. Gives up where that is too much, and says so.
+    fn move_into_place(&mut self, times: &mut C, run: &mut [Entry<C::Key>]) -> bool {
         let mut moves = 0;
         for i in 1..run.len() {
             let entry = run[i];
@@ -274,7 +333,7 @@ impl<C: FlipTimes> FlipQueue<C> {
             }
             run[hole] = entry;
             moves += i - hole;
-            if moves > run.len() {
+            if moves > 2 * run.len() {
                 return false;
             }
         }
@@ -359,6 +418,22 @@ impl<C: FlipTimes> FlipQueue<C> {
             .compare((&a.event, &a.time), (&b.event, &b.time))
             .then(a.arrival.cmp(&b.arrival))
     }
+}
+
+/// Sorts a run by what its times are about. `false` if that is not known.
+fn sort_by_about<C: FlipTimes>(run: &mut [Entry<C::Key>], latest_first: bool) -> bool {
+    let about = |entry: &Entry<C::Key>| C::about(entry.key);
+    if run.first().is_some_and(|first| about(first).is_none()) {
+        return false;
+    }
+    run.sort_unstable_by(|a, b| {
+        let (a, b) = (about(a).unwrap_or(0.0), about(b).unwrap_or(0.0));
+        b.total_cmp(&a)
+    });
+    if latest_first {
+        run.reverse();
+    }
+    true
 }
 
 #[cfg(test)]

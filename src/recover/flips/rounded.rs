@@ -52,8 +52,8 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
             return None;
         }
         // The filter's values are what plain doubles give: the same operations in the same order, the origin apart.
-        let n = self.filter.resting(lift, &across);
-        let computed = N::computed(n.value).zip(N::computed(across.d.value));
+        let [n, d] = self.filter.plain(lift, &across);
+        let computed = N::computed(n).zip(N::computed(d));
         Some(computed.unwrap_or_else(|| self.rates.evaluate(circuit)))
     }
 }

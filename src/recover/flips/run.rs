@@ -1,5 +1,7 @@
 //! From the name of a number type to the flips in that type.
 
+use super::compact::{Compact, CompactScratch};
+use super::room::InMesh;
 use super::{
     Deleted, ExactTimes, FilteredTimes, FlipCounts, FlipDeletion, FlipInsertion, FlipOutcome,
     FlipTimes, Kept, Motion, RoundedTimes, VertexNumbers, Watch, WideTimes,
@@ -30,6 +32,7 @@ pub struct Flipped {
 pub struct FlipScratch {
     marks: Table<bool>,
     numbers: VertexNumbers,
+    compact: CompactScratch,
     /// Which task takes how long, if somebody asks.
     pub(in crate::recover) clock: TaskClock,
 }
@@ -43,6 +46,9 @@ pub fn flip_insert<P: PointStore>(
     scratch: &mut FlipScratch,
     watch: Option<&mut dyn Watch>,
 ) -> Flipped {
+    if times == Times::Filtered && watch.is_none() && region.tets.len() >= COMPACT {
+        return compact_insert(mesh, sides, region, scratch);
+    }
     if times.is_naive() {
         return naive_insert(mesh, sides, region, times, scratch, watch);
     }
@@ -95,6 +101,44 @@ fn naive_insert<P: PointStore>(
         None => job.run(RoundedTimes::<_, f64>::naive(motion)),
         Some(bits) => job.run(WideTimes::naive(bits, motion)),
     })
+}
+
+/// Regions of so many tetrahedra are worth a copy.
+const COMPACT: usize = 100;
+
+/// The same as [`Times::Filtered`] in the mesh, in a copy of the region.
+fn compact_insert<P: PointStore>(
+    mesh: &mut TetMesh,
+    sides: &Sides<P>,
+    region: &Region,
+    scratch: &mut FlipScratch,
+) -> Flipped {
+    let mut copy = Compact::new(mesh, sides, region, &mut scratch.compact);
+    let parts = copy.room;
+    let is_left = |v: VertexId| parts.is_left(v);
+    let motion = Motion::of_few(&copy.points, copy.frame, &is_left);
+    let tets = copy.tets();
+    let times = FilteredTimes::new(&motion);
+    let mut room = parts;
+    let insertion = FlipInsertion::new(&mut copy.mesh, &copy.points, &mut room, times);
+    let (outcome, counts) = insertion.timed_by(&mut scratch.clock).insert(tets);
+    let outcome = match outcome {
+        FlipOutcome::Done => done_but_for(copy.crossing()),
+        outcome => outcome,
+    };
+    Flipped {
+        outcome,
+        tets: copy.put_back(mesh, region),
+        counts,
+    }
+}
+
+/// The outcome when the queue is empty.
+fn done_but_for(crossing: usize) -> FlipOutcome {
+    match crossing {
+        0 => FlipOutcome::Done,
+        crossing => FlipOutcome::Stuck { crossing },
+    }
 }
 
 /// Deletes the polygon that consists of `faces`, the triangles opposite these corners, by flips backwards, ordered by
@@ -170,9 +214,22 @@ impl<P: PointStore> Job<'_, P> {
 
     fn run<C: FlipTimes>(self, times: C) -> Flipped {
         let FlipScratch { marks, clock, .. } = self.scratch;
-        let insertion = FlipInsertion::new(self.mesh, self.sides, self.region, times, marks);
-        let insertion = insertion.watched_by(self.watch).timed_by(clock);
-        let (outcome, tets, counts) = insertion.insert(self.region);
+        let (sides, tets) = (self.sides, &self.region.tets);
+        let mut room = InMesh::new(sides, tets, marks);
+        let mut watch = self.watch;
+        let insertion = FlipInsertion::new(self.mesh, sides.points(), &mut room, times);
+        let insertion = insertion.watched_by(watch.as_mut().map(|w| &mut **w as &mut dyn Watch));
+        let (outcome, counts) = insertion.timed_by(clock).insert(tets.iter().copied());
+        let tets = room.tets();
+        let crosses = |&&t: &&TetId| sides.crosses_tet(self.mesh, t);
+        let outcome = match outcome {
+            FlipOutcome::Done => done_but_for(tets.iter().filter(crosses).count()),
+            outcome => outcome,
+        };
+        if let Some(watch) = watch {
+            let vertices: Vec<_> = tets.iter().map(|&t| self.mesh.vertices(t)).collect();
+            watch.end(outcome, &vertices);
+        }
         Flipped {
             outcome,
             tets,

@@ -51,6 +51,11 @@ pub trait FlipTimes {
     /// Prepares [`FlipTimes::time_across`] for the facets of a tetrahedron.
     fn lift(&mut self, tet: [VertexId; 4]) -> Self::Lift;
 
+    /// Lets the processor fetch what is known of a vertex that will be lifted soon.
+    fn prefetch(&self, v: VertexId) {
+        let _ = v;
+    }
+
     /// The time of a triangle of the lifted tetrahedron, vxyz up to an even permutation. Exact orders ask, before they
     /// compute the quotient, whether the time is of interest, given the signs of c_x, c_y, c_z where they are known.
     fn time_across(
