@@ -58,6 +58,7 @@ pub struct Scratch {
     pub(super) cavity: CavityScratch,
     pub(super) sides: SideTable,
     region: Table<bool>,
+    star: Vec<TetId>,
 }
 
 impl Scratch {
@@ -73,6 +74,9 @@ impl Scratch {
     }
 }
 
+/// How many tetrahedra at a vertex are looked at for one that has another vertex, too, without a hash table.
+const MOST_LOOKS: usize = 40;
+
 /// How often a polygon that is flat only to rounding is searched for missing regions.
 const ROUNDS_IF_NOT_FLAT: usize = 8;
 
@@ -85,6 +89,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     /// # Errors
     /// The first polygon that cannot be inserted, by name.
     pub fn insert_all(&mut self, progress: &mut dyn FnMut(usize)) -> Result<(), Failure> {
+        self.subpolygons.reserve(self.complex.polygons.len());
         for f in 0..self.complex.polygons.len() {
             self.insert(f)?;
             progress(f + 1);
@@ -118,6 +123,11 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     /// Inserts polygon `f`, and returns the polygons that it displaced.
     fn insert_polygon(&mut self, f: usize, may_displace: bool) -> Result<Vec<usize>, Failure> {
         let polygon = &self.complex.polygons[f];
+        if let Some(triangle) = self.triangle_in_mesh(polygon) {
+            self.counts.already_present += u64::from(may_displace);
+            self.subpolygons.insert(triangle, f as u32);
+            return Ok(Vec::new());
+        }
         let boundary = boundary_subsegments(self.subsegments, self.index, polygon);
         let on_boundary = boundary.iter().flatten().copied();
         let sides = Sides::with_table(
@@ -129,6 +139,39 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         let result = self.insert_where_missing(f, &sides, &boundary, may_displace);
         self.scratch.sides = sides.into_table();
         result
+    }
+
+    /// The polygon, if it is a triangle of the mesh that no Steiner point divides and that is found soon: what the search
+    /// would find, too, and the common case of surfaces in triangles.
+    fn triangle_in_mesh(&mut self, polygon: &Polygon) -> Option<Face> {
+        let &[a, b, c] = polygon.vertices.as_slice() else {
+            return None;
+        };
+        let is_whole = |e: &[VertexId; 2]| self.subsegments.segment_of(e[0], e[1]).is_some();
+        if polygon.edges.len() != 3 || !polygon.edges.iter().all(is_whole) {
+            return None;
+        }
+        // The star of a, until one of its tetrahedra has b, and then around ab.
+        let star = &mut self.scratch.star;
+        star.clear();
+        star.extend(self.incidence.tet_at(a));
+        let mut next = 0;
+        while next < MOST_LOOKS {
+            let &t = star.get(next)?;
+            next += 1;
+            let (vertices, twins) = self.mesh.tet(t);
+            if vertices.contains(&b) {
+                let mut around = self.mesh.around(t, a, b);
+                let has_c = |t: TetId| self.mesh.slot_of(t, c).is_some();
+                return around.any(has_c).then_some([a, b, c]);
+            }
+            for (v, twin) in vertices.iter().zip(twins) {
+                if *v != a && !star.contains(&twin.tet()) {
+                    star.push(twin.tet());
+                }
+            }
+        }
+        None
     }
 
     /// The same, for a polygon whose sides and boundary are known.
@@ -525,13 +568,16 @@ pub(super) fn boundary_subsegments(
     index: &SegmentIndex,
     f: &Polygon,
 ) -> Vec<[VertexId; 2]> {
-    let chains = f
-        .edges
-        .iter()
-        .map(|&[a, b]| subsegments.chain_between(index, a, b));
-    chains
-        .flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>())
-        .collect()
+    let mut boundary = Vec::with_capacity(f.edges.len());
+    for &[a, b] in &f.edges {
+        if subsegments.segment_of(a, b).is_some() {
+            boundary.push([a, b]);
+        } else {
+            let chain = subsegments.chain_between(index, a, b);
+            boundary.extend(chain.windows(2).map(|w| [w[0], w[1]]));
+        }
+    }
+    boundary
 }
 
 /// The tetrahedra whose vertices are all on f: none if that is flat.
