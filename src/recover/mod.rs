@@ -2,6 +2,7 @@
 //! a time, then inside and outside.
 
 pub mod cavity;
+mod crossings;
 pub mod deletion;
 pub mod domain;
 pub mod dump;

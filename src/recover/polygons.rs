@@ -58,6 +58,7 @@ pub struct Scratch {
     pub(super) cavity: CavityScratch,
     pub(super) sides: SideTable,
     region: Table<bool>,
+    pub(super) star: Vec<TetId>,
 }
 
 impl Scratch {
@@ -85,6 +86,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     /// # Errors
     /// The first polygon that cannot be inserted, by name.
     pub fn insert_all(&mut self, progress: &mut dyn FnMut(usize)) -> Result<(), Failure> {
+        self.subpolygons.reserve(self.complex.polygons.len());
         for f in 0..self.complex.polygons.len() {
             self.insert(f)?;
             progress(f + 1);
@@ -118,6 +120,11 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     /// Inserts polygon `f`, and returns the polygons that it displaced.
     fn insert_polygon(&mut self, f: usize, may_displace: bool) -> Result<Vec<usize>, Failure> {
         let polygon = &self.complex.polygons[f];
+        if let Some(triangle) = self.triangle_in_mesh(polygon) {
+            self.counts.already_present += u64::from(may_displace);
+            self.subpolygons.insert(triangle, f as u32);
+            return Ok(Vec::new());
+        }
         let boundary = boundary_subsegments(self.subsegments, self.index, polygon);
         let on_boundary = boundary.iter().flatten().copied();
         let sides = Sides::with_table(
@@ -289,78 +296,6 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         .into()
     }
 
-    /// In a valid PLC no segment and no other polygon crosses f.
-    fn check_crossings(
-        &self,
-        f: usize,
-        sides: &Sides<P>,
-        flat: bool,
-        region: &Region,
-    ) -> Result<(), Failure> {
-        let certain = |vertices: &[VertexId]| {
-            flat && vertices
-                .iter()
-                .all(|&v| self.subsegments.segment_of_steiner(v).is_none())
-        };
-        let facets = || self.complex.polygons[f].facets.clone();
-        let segments = match self.may_be_crossed(sides, region) {
-            true => Some(region.crossing_edges(self.mesh, sides)),
-            false => None,
-        };
-        for segment in segments.into_iter().flatten() {
-            let [a, b] = segment;
-            if let Some(s) = self.subsegments.segment_of(a, b) {
-                return Err(if certain(&segment) {
-                    let facets = facets();
-                    InvalidPlc::SegmentThroughPolygon { facets, segment }.into()
-                } else {
-                    let segment = self.complex.segments[s as usize].ends;
-                    self.not_flat(f, NotFlatReason::CrossedBySegment { segment })
-                });
-            }
-        }
-        if self.subpolygons.is_empty() {
-            return Ok(());
-        }
-        for c in region.crossing_triangles(self.mesh, sides) {
-            let facet = self.mesh.facet(c);
-            if let Some(&other) = self.subpolygons.get(&face(facet)) {
-                let second = self.complex.polygons[other as usize].facets.clone();
-                return Err(if certain(&facet) {
-                    InvalidPlc::PolygonsIntersect {
-                        first: facets(),
-                        second,
-                    }
-                    .into()
-                } else {
-                    self.not_flat(f, NotFlatReason::CrossedByPolygon { facets: second })
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// `false` if no subsegment is among the crossing edges of the region, and there are so few that one look at each tells:
-    /// the sides of the region's vertices are known, and two of them must differ.
-    fn may_be_crossed(&self, sides: &Sides<P>, region: &Region) -> bool {
-        let few = self.complex.segments.len() + self.subsegments.steiner_count();
-        if few > region.tets.len() {
-            return true;
-        }
-        let side = |v: VertexId| match sides.known(v) {
-            Some(Side::Left) => 1,
-            Some(Side::Right) => 2,
-            _ => 0,
-        };
-        (0..self.complex.segments.len() as u32).any(|s| {
-            let mut last = 0;
-            self.subsegments
-                .chain(s)
-                .map(side)
-                .any(|side| std::mem::replace(&mut last, side) | side == 3)
-        })
-    }
-
     /// Flips in one region. If they fail the region is restored, and given back.
     fn by_flips(
         &mut self,
@@ -499,7 +434,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         })
     }
 
-    fn not_flat(&self, f: usize, reason: NotFlatReason) -> Failure {
+    pub(super) fn not_flat(&self, f: usize, reason: NotFlatReason) -> Failure {
         let facets = self.complex.polygons[f].facets.clone();
         GaveUp::NotFlat { facets, reason }.into()
     }

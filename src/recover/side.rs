@@ -61,7 +61,8 @@ impl<'a, P: PointStore> Sides<'a, P> {
         let mut vertices: Vec<VertexId> = vertices.into_iter().collect();
         vertices.sort_unstable();
         vertices.dedup();
-        let on_plane = |&v: &VertexId| points.orient3d([a, b, c, v]).is_zero();
+        let on_plane =
+            |&v: &VertexId| [a, b, c].contains(&v) || points.orient3d([a, b, c, v]).is_zero();
         let flat = vertices.iter().all(on_plane);
         Sides {
             points,

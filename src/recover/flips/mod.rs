@@ -3,6 +3,8 @@
 //! [`FlipInsertion::insert`] and `certify` are the figure's two procedures, line by line. The order of
 //! the queue is that of a [`FlipTimes`]: rounded quotients as in the paper, with the paper's three patches (§3.3), each
 //! counted; or exact quotients with the perturbation of the weights, which need no patch.
+//!
+//! Large regions are flipped in a copy (`compact.rs`) if the times are filtered ones and nobody watches.
 
 mod compact;
 mod deletion;
