@@ -147,8 +147,9 @@ impl Case<'_> {
 
 /// Checks that `mesh` is a constrained Delaunay tetrahedralization of `plc`, Steiner points permitted.
 ///
-/// O(n log n) for a mesh of n tetrahedra, plus what a facet with m edges costs for each of its faces: O(k), where k of the
-/// edges are at the height of the face.
+/// O(n) for a mesh of n tetrahedra whose listed faces cover the facets and which has no vertex or edge with very many
+/// tetrahedra; O(log m) for each of the m edges of a facet that is more than one polygon. Where faces have to be searched for, each
+/// of them costs O(k) for k edges of its facet at its height.
 pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict {
     let mut findings = Findings::new(options.cap);
     structure::check(plc, mesh, &mut findings);
