@@ -26,18 +26,20 @@ fn cubes_are_accepted() {
     }
 }
 
-/// Integers decide only what doubles do not: nothing where coordinates are small integers.
+/// Integers decide only what doubles do not: where coordinates are small integers, at most one sign for each facet, that it is a line
+/// in one projection.
 #[test]
 fn exact_signs_are_counted() {
     let (mut plc, mut mesh) = cube();
-    assert_eq!(run(&plc, &mesh).counts.exact_signs, 0);
+    let few = run(&plc, &mesh).counts.exact_signs;
+    assert!(few <= plc.facets.len());
     for p in plc.vertices.iter_mut().chain(&mut mesh.vertices) {
         *p = p.map(|x| 0.1 + x / 3.0);
     }
     let verdict = run(&plc, &mesh);
     assert_kinds(&verdict, &[]);
-    // All inner faces are cospherical, or nearly.
-    assert!(verdict.counts.exact_signs >= verdict.counts.unconstrained_faces);
+    // All inner faces are cospherical.
+    assert!(verdict.counts.exact_signs >= few + verdict.counts.unconstrained_faces);
 }
 
 /// Where only points are given, faces that nobody asks for are counted, but not kept.
