@@ -83,6 +83,9 @@ pub struct Report {
     /// Tetrahedra that are positive with the exact Steiner points but not with the rounded ones, by index in the output,
     /// counting from 0.
     pub spoilt_by_rounding: Vec<usize>,
+    /// How many signs the verifier had to decide by integers ([`crate::verify::Counts::exact_signs`]), if it was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verified_by_integers: Option<usize>,
     /// Seconds per phase; a phase that was not reached has 0.
     pub seconds: Seconds,
 }

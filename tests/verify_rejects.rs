@@ -26,6 +26,47 @@ fn cubes_are_accepted() {
     }
 }
 
+/// Integers decide only what doubles do not: where coordinates are small integers, at most one sign for each facet, that it is a line
+/// in one projection.
+#[test]
+fn exact_signs_are_counted() {
+    let (mut plc, mut mesh) = cube();
+    let few = run(&plc, &mesh).counts.exact_signs;
+    assert!(few <= plc.facets.len());
+    for p in plc.vertices.iter_mut().chain(&mut mesh.vertices) {
+        *p = p.map(|x| 0.1 + x / 3.0);
+    }
+    let verdict = run(&plc, &mesh);
+    assert_kinds(&verdict, &[]);
+    // All inner faces are cospherical.
+    assert!(verdict.counts.exact_signs >= few + verdict.counts.unconstrained_faces);
+}
+
+/// Where only points are given, faces that nobody asks for are counted, but not kept.
+#[test]
+fn points_only() {
+    let vertices = bipyramid(1.0);
+    let points = plc(&vertices, &[]);
+    let mut right = mesh(&vertices, &THREE);
+    right.faces.push(ExportedFace {
+        vertices: ids([0, 3, 4]),
+        marker: 0,
+    });
+    let verdict = run(&points, &right);
+    assert_kinds(&verdict, &[]);
+    assert_eq!(
+        (verdict.counts.faces, verdict.counts.boundary_faces),
+        (9, 6)
+    );
+    assert_eq!(verdict.counts.unconstrained_faces, 3);
+    assert_kinds(
+        &run(&points, &mesh(&vertices, &TWO)),
+        &["not locally Delaunay"],
+    );
+    right.faces[0].vertices = ids([0, 1, 2]);
+    assert_kinds(&run(&points, &right), &["listed but not in mesh"]);
+}
+
 #[test]
 fn the_other_orientation_is_accepted_and_said() {
     let (plc, mut mesh) = cube();

@@ -180,6 +180,10 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
                 ..VerifyOptions::default()
             },
         );
+        report.verified_by_integers = Some(verdict.counts.exact_signs);
+        if let Some(path) = &arguments.report {
+            write_report(path, &arguments.input, "ok", &report)?;
+        }
         if !verdict.is_ok() {
             return Err(Stop::failed(format!(
                 "the mesh is not a CDT of the input, nothing is written\n{verdict}"

@@ -119,10 +119,9 @@ fn not_locally_delaunay<P: PointStore>(
             .is_some_and(|&u| !u.is_infinite() && points.insphere([v, a, b, c, u]).is_positive())
     };
     let facets = wrapped.new.iter().flat_map(apexes);
-    facets
-        .filter(bad)
-        .filter(|&(facet, _)| !is_constrained(face(facet)))
-        .count()
+    // From both sides, perhaps.
+    let faces: FxHashSet<Face> = facets.filter(bad).map(|(f, _)| face(f)).collect();
+    faces.into_iter().filter(|&f| !is_constrained(f)).count()
 }
 
 /// The same facet with its smallest vertex first.

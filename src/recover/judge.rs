@@ -115,7 +115,9 @@ impl<P: PointStore> Judge<'_, P> {
                 let t = face(self.mesh.facet(c));
                 !on_f.contains(&t) && !self.subpolygons.contains_key(&t)
             });
-        match bad.count() {
+        // From both sides, perhaps.
+        let bad: FxHashSet<Face> = bad.map(|c| face(self.mesh.facet(c))).collect();
+        match bad.len() {
             0 => Ok(()),
             n => Err(RegionFailure::NotDelaunay(n)),
         }

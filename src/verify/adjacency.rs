@@ -10,48 +10,49 @@
 //! 1. the faces of B do not cross each other: where the outside is removed, they are on facets of the PLC, which
 //!    intersect in common segments and vertices only (a premise: the PLC is valid; and coplanar faces are excluded
 //!    from overlapping by the areas in [`super::facets`]); where the hull is kept, B is star-shaped ([`super::hull`]);
-//! 2. on the outer side of the centroid of each face of B there is no tetrahedron: the winding number is 0 there and 1
-//!    on the inner side. Every region of space without B has a whole face of B on its boundary by 1, so that each has
-//!    winding number 0 or 1.
+//! 2. on the outer side of each face of B there is no tetrahedron: the winding number is 0 there and 1 on the inner side.
+//!    Every region of space without B has a whole face of B on its boundary by 1, so that each has winding number 0 or 1.
 //!
-//! Fact 2 is checked here: the closure of no tetrahedron but its own contains the centroid of a boundary face.
+//! The outer sides of the faces of one shell ([`super::shells`]) are joined across edges, where they look into one empty wedge,
+//! which no face of B divides by 1. So the winding number is the same outside all of them, and fact 2 is checked for one
+//! face of each shell ([`super::winding`], called by [`super::domain`]). Where the tetrahedra do not even match at their
+//! faces, this file says instead which tetrahedra contain the centroids of boundary faces of others.
 
-use super::{Case, Findings, Violation};
+use super::{Case, Findings, Violation, locate};
 
 pub(super) fn check(case: &Case, findings: &mut Findings) {
     let tables = &case.tables;
-    findings.counts.faces = tables.faces.len();
-    for face in &tables.faces {
-        let [a, b] = face.sides;
-        if face.tets > 2 {
-            let [p, q, _] = face.key;
-            let tets = tables.star(p).iter().map(|&t| t as usize);
-            let has = |t: &usize| face.key.iter().all(|v| tables.tets[*t].contains(v));
-            debug_assert!(tables.star(q).len() >= 3);
-            findings.report(Violation::CrowdedFace {
-                face: face.key.map(|v| case.place(v)),
-                tets: tets.filter(has).collect(),
-            });
-        } else if face.tets == 2 && is_even(tables.inward(a)) == is_even(tables.inward(b)) {
-            findings.report(Violation::SameSide {
-                face: face.key.map(|v| case.place(v)),
-                tets: [a.0 as usize, b.0 as usize],
-            });
-        }
+    findings.counts.faces = tables.total;
+    findings.counts.boundary_faces = tables.boundary().len();
+    for &f in &tables.crowded {
+        findings.report(Violation::CrowdedFace {
+            face: tables.faces[f].key.map(|v| case.place(v)),
+            tets: tables.tets_at(f),
+        });
     }
-    let mut others = case.locator.around_boundary().iter().peekable();
-    for (i, (_, face)) in tables.boundary().enumerate() {
-        findings.counts.boundary_faces += 1;
-        let own = face.sides[0].0 as usize;
-        while let Some(&(_, other)) = others.next_if(|&&(query, _)| query as usize == i) {
-            let tets = [own, other as usize];
-            findings.report(Violation::Overlap { tets });
-        }
+    for &f in &tables.same_side {
+        let face = &tables.faces[f];
+        let Some(sides) = face
+            .both()
+            .filter(|_| tables.crowded.binary_search(&f).is_err())
+        else {
+            continue;
+        };
+        findings.report(Violation::SameSide {
+            face: face.key.map(|v| case.place(v)),
+            tets: sides.map(|side| side.tet()),
+        });
+    }
+    if !findings.is_manifold() {
+        let boundary: Vec<usize> = tables.boundary().map(|(f, _)| f).collect();
+        overlaps(case, &boundary, findings);
     }
 }
 
-/// Whether the three are an even permutation of their sorted order.
-fn is_even<T: Ord>([a, b, c]: [T; 3]) -> bool {
-    let inversions = usize::from(a > b) + usize::from(a > c) + usize::from(b > c);
-    inversions.is_multiple_of(2)
+/// Reports the tetrahedra that contain the centroids of boundary faces of others.
+pub(super) fn overlaps(case: &Case, boundary: &[usize], findings: &mut Findings) {
+    for (f, other) in locate::around_faces(case, boundary) {
+        let tets = [case.tables.faces[f].first().tet(), other];
+        findings.report(Violation::Overlap { tets });
+    }
 }

@@ -3,21 +3,46 @@
 //!
 //! By the constrained Delaunay lemma (Shewchuk 2008, General-dimensional constrained Delaunay and constrained regular
 //! triangulations) this makes a tetrahedralization that covers all facets the constrained Delaunay one.
+//!
+//! Each face is looked at once, when it is found ([`super::tables`]): those with one smallest vertex together, so that their
+//! points are at hand.
 
+use super::gather::Face;
+use super::points::Points;
 use super::{Case, Findings, Violation};
 use crate::number::Sign;
 
-/// Whether a face is on the boundary, or neither of its apexes is inside the circumsphere of the other tetrahedron.
-pub(super) fn is_locally_delaunay(case: &Case, f: usize) -> bool {
-    let face = &case.tables.faces[f];
-    face.tets != 2 || !side_of_sphere(case, f).is_positive()
+/// The faces whose tetrahedra do not just have empty circumspheres.
+#[derive(Default)]
+pub(super) struct Spheres {
+    /// An apex is inside the circumsphere of the other tetrahedron.
+    pub(super) violated: Vec<usize>,
+    /// An apex is on it.
+    pub(super) cospherical: Vec<usize>,
+    /// How many more there are of those, on no facet.
+    pub(super) cospherical_elsewhere: usize,
 }
 
-/// The sign of insphere across a face with two tetrahedra.
-fn side_of_sphere(case: &Case, f: usize) -> Sign {
-    let [a, b] = case.tables.faces[f].sides;
-    let [p, q, r, s] = case.tables.tets[a.0 as usize];
-    case.points.insphere([p, q, r, s, case.tables.apex(b)])
+/// Whether a face is on the boundary, or neither of its apexes is inside the circumsphere of the other tetrahedron.
+pub(super) fn is_locally_delaunay(case: &Case, f: usize) -> bool {
+    !side_of_sphere(case.points, &case.tables.faces[f]).is_positive()
+}
+
+/// The sign of insphere across a face with two tetrahedra; negative on the boundary.
+#[inline(always)]
+pub(super) fn side_of_sphere(points: &Points, face: &Face) -> Sign {
+    if !face.is_shared() {
+        return Sign::Negative;
+    }
+    let [a, b, c] = face.key;
+    let [d, e] = face.apexes;
+    // The first tetrahedron is positive.
+    let [b, c] = if face.first().is_below() {
+        [c, b]
+    } else {
+        [b, c]
+    };
+    points.insphere([a, b, c, d, e])
 }
 
 /// `constrained[f]`: face f is one of those that cover a facet. `facet_of(f)`: a facet whose vertices it has.
@@ -27,21 +52,21 @@ pub(super) fn check(
     facet_of: impl Fn(usize) -> Option<usize>,
     findings: &mut Findings,
 ) {
-    for (f, face) in case.tables.faces.iter().enumerate() {
-        if face.tets != 2 || constrained[f] {
-            continue;
-        }
-        let [a, b] = face.sides;
-        findings.counts.unconstrained_faces += 1;
-        match side_of_sphere(case, f) {
-            Sign::Positive => findings.report(Violation::NotLocallyDelaunay {
-                face: face.key.map(|v| case.place(v)),
-                tets: [a, b].map(|side| side.0 as usize),
-                apexes: [a, b].map(|side| case.place(case.tables.apex(side))),
-                facet: facet_of(f),
-            }),
-            Sign::Zero => findings.counts.cospherical_faces += 1,
-            Sign::Negative => {}
-        }
+    let (faces, spheres) = (&case.tables.faces, &case.tables.spheres);
+    let inner = case.tables.total - case.tables.boundary().len();
+    let covering = (0..faces.len()).filter(|&f| constrained[f] && faces[f].is_shared());
+    findings.counts.unconstrained_faces = inner - covering.count();
+    let free = |f: &&usize| !constrained[**f];
+    let cospherical = spheres.cospherical.iter().filter(free).count();
+    findings.counts.cospherical_faces = cospherical + spheres.cospherical_elsewhere;
+    for &f in spheres.violated.iter().filter(free) {
+        let face = &faces[f];
+        let Some(sides) = face.both() else { continue };
+        findings.report(Violation::NotLocallyDelaunay {
+            face: face.key.map(|v| case.place(v)),
+            tets: sides.map(|side| side.tet()),
+            apexes: face.apexes.map(|v| case.place(v)),
+            facet: facet_of(f),
+        });
     }
 }

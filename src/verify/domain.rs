@@ -15,18 +15,21 @@
 use super::facets::Cover;
 use super::segments::{self, Fate};
 use super::shells::{Shell, Shells};
-use super::sums::Cones;
-use super::{Case, Domain, Findings, Violation, hull};
+use super::winding::Boundary;
+use super::{Case, Domain, Findings, Violation, adjacency, hull};
 use crate::number::{Dyadic, Exact, Number, Sign};
 use std::cmp::Ordering;
 
 pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut Findings) {
-    volume(case, findings);
     let found = Shells::new(case, &cover.outside);
+    volume(case, &found, findings);
     for edge in &found.contradictions {
         findings.report(Violation::BoundaryNotEmbedded {
             edge: edge.map(|v| case.place(v)),
         });
+    }
+    if findings.is_manifold() {
+        no_overlaps(case, &found, findings);
     }
     let with = |sign| {
         found
@@ -36,6 +39,11 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
             .collect::<Vec<&Shell>>()
     };
     let (outer, voids) = (with(Sign::Positive), with(Sign::Negative));
+    let outer_faces = || outer.iter().flat_map(|shell| shell.faces.iter().copied());
+    let hull = |findings: &mut Findings| {
+        let boundary = Boundary::new(case, outer_faces().collect(), 1);
+        hull::check(case, &outer, &boundary, findings);
+    };
     let is_hull = match case.options.domain {
         Domain::Hull => true,
         Domain::Inside => false,
@@ -44,7 +52,7 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
             let mut holes = case.input.holes.iter();
             let mut trial = findings.trial();
             (open || holes.any(|&h| !case.locator.containing(h).is_empty())) && {
-                hull::check(case, &outer, &mut trial);
+                hull(&mut trial);
                 trial.is_empty()
             }
         }
@@ -55,7 +63,7 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
         Domain::Inside
     };
     if is_hull {
-        hull::check(case, &outer, findings);
+        hull(findings);
         all_input_is_meshed(case, fates, cover, findings);
     } else {
         boundary_on_facets(case, cover, &outer, findings);
@@ -64,14 +72,22 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
     holes(case, &voids, is_hull, findings);
 }
 
-fn volume(case: &Case, findings: &mut Findings) {
-    // The inward normal makes the cone over a face negative.
-    let mut boundary = Cones::new();
-    for (_, face) in case.tables.boundary() {
-        let [a, b, c] = case.tables.inward(face.sides[0]);
-        boundary.add(case.points, [a, c, b]);
+/// Outside of each shell there is no tetrahedron ([`super::adjacency`]).
+fn no_overlaps(case: &Case, found: &Shells, findings: &mut Findings) {
+    let all = case.tables.boundary().map(|(f, _)| f);
+    let boundary = Boundary::new(case, all.collect(), found.shells.len());
+    for shell in found.shells.iter().filter(|s| !s.faces.is_empty()) {
+        let winding = shell.faces.iter().find_map(|&f| boundary.outside(f));
+        if winding != Some(0) {
+            adjacency::overlaps(case, &shell.faces, findings);
+        }
     }
-    let boundary = boundary.volume();
+}
+
+fn volume(case: &Case, found: &Shells, findings: &mut Findings) {
+    // Every boundary face has its outer side in one shell, and the two sides of other walls cancel.
+    let volumes = found.shells.iter().map(|shell| &shell.volume);
+    let boundary = volumes.fold(Dyadic::ZERO, |sum, volume| sum + volume);
     if findings.is_manifold() {
         findings.counts.volume = boundary.to_f64() / 6.0;
         return;
@@ -99,7 +115,7 @@ fn boundary_on_facets(case: &Case, cover: &Cover, shells: &[&Shell], findings: &
         let face = &case.tables.faces[f];
         findings.report(Violation::BoundaryNotOnFacet {
             face: face.key.map(|v| case.place(v)),
-            tet: face.sides[0].0 as usize,
+            tet: face.first().tet(),
         });
     }
 }

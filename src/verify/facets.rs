@@ -1,6 +1,9 @@
 //! Every facet is a union of mesh faces.
 //!
-//! Facets that share merged edges ([`super::segments`]) form a group. The *candidates* are the mesh faces whose centroid
+//! Facets that share merged edges ([`super::segments`]) form a group. The faces that the mesh lists are tried first: if they cover
+//! a group ([`super::surface`]), and if in the end every face that covers no group is locally Delaunay, nothing has to be
+//! searched for. Else each group is looked at as follows ([`super::group`]).
+//! The *candidates* are the mesh faces whose centroid
 //! is inside the projected area of the group and whose vertices are vertices of it: its input vertices, vertices of the
 //! chains that replace its edges, and inside the area any vertex exactly on its plane, and Steiner points within the tolerance of the plane
 //! (for facets that are not flat, within the distance of their own vertices from it). They are found by a flood over mesh
@@ -22,20 +25,17 @@
 //! one of its convex corners into it enters no tetrahedron. The facets of a PLC intersect in common segments only, so that
 //! a part is inside or outside as a whole. Exempt parts go to [`super::domain`], as they must not enclose anything.
 
-use super::cover::{self, Need};
-use super::delaunay::is_locally_delaunay;
+use super::group::{Group, is_on_planes, planes};
+use super::listed::Listed;
 use super::planar::{Area, distinct};
+use super::points::Points;
 use super::segments::{Fate, axes_of};
-use super::slabs::Slabs;
 use super::sums::Areas;
+use super::surface::Flood;
 use super::tables::sorted2;
-use super::{Case, Findings, Violation};
+use super::{Case, Findings};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Number, Sign};
-use rustc_hash::{FxHashMap, FxHashSet};
-
-/// From how many facets on those of a group are sorted by slabs.
-const MANY: usize = 8;
+use crate::number::Sign;
 
 /// A part of a facet outside the domain.
 pub(super) struct OutsidePart {
@@ -52,7 +52,7 @@ pub(super) struct Cover {
     /// For each mesh face, whether it is one of those that cover a facet.
     pub(super) constrained: Vec<bool>,
     /// A facet for each candidate, [`usize::MAX`] for other faces.
-    facet_of: Vec<usize>,
+    pub(super) facet_of: Vec<usize>,
     /// The exempt parts.
     pub(super) outside: Vec<OutsidePart>,
 }
@@ -65,18 +65,38 @@ impl Cover {
 }
 
 /// Covers all facets.
-pub(super) fn check(case: &Case, fates: &[Fate], findings: &mut Findings) -> Cover {
+pub(super) fn check(
+    case: &Case,
+    fates: &[Fate],
+    listed: &Listed,
+    findings: &mut Findings,
+) -> Cover {
+    let mut trial = findings.clone();
+    let cover = cover_all(case, fates, listed, true, &mut trial);
+    let spheres = &case.tables.spheres;
+    if spheres.violated.iter().all(|&f| cover.constrained[f]) {
+        *findings = trial;
+        return cover;
+    }
+    cover_all(case, fates, listed, false, findings)
+}
+
+/// Covers all facets, by listed faces where they do and that is `quick` enough.
+fn cover_all(
+    case: &Case,
+    fates: &[Fate],
+    listed: &Listed,
+    quick: bool,
+    findings: &mut Findings,
+) -> Cover {
+    let faces = case.tables.faces.len();
     let mut cover = Cover {
-        constrained: vec![false; case.tables.faces.len()],
-        facet_of: vec![usize::MAX; case.tables.faces.len()],
+        constrained: vec![false; faces],
+        facet_of: vec![usize::MAX; faces],
         outside: Vec::new(),
     };
-    let mut listed = vec![false; case.tables.faces.len()];
-    for face in &case.mesh.faces {
-        if let Some(f) = case.tables.find_face(face.vertices) {
-            listed[f] = true;
-        }
-    }
+    let mut finder = quick.then(|| Finder::new(case, fates, listed));
+    let mut is_listed = Vec::new();
     for group in groups(case, fates).chunk_by(|f, g| f.0 == g.0) {
         findings.counts.facet_groups += 1;
         if let Some(face) = same_face(case, fates, group) {
@@ -84,14 +104,105 @@ pub(super) fn check(case: &Case, fates: &[Fate], findings: &mut Findings) -> Cov
             cover.constrained[face] = true;
             continue;
         }
-        let group = group.iter().map(|&(_, f)| f).collect();
+        let group: Vec<usize> = group.iter().map(|&(_, f)| f).collect();
+        if let Some(found) = finder.as_mut().and_then(|finder| finder.cover(&group)) {
+            findings.counts.facets += group.len();
+            findings.counts.facets_rounded += usize::from(found.rounded);
+            for f in found.faces {
+                cover.constrained[f] = true;
+                cover.facet_of[f] = cover.facet_of[f].min(group[0]);
+            }
+            continue;
+        }
+        if is_listed.is_empty() {
+            is_listed = vec![false; faces];
+            for &f in &listed.surface.faces {
+                is_listed[f as usize] = true;
+            }
+        }
         match Group::new(case, fates, group) {
-            Some(group) => group.check(&listed, &mut cover, findings),
+            Some(group) => group.check(&is_listed, &mut cover, findings),
             None => findings.counts.facets_degenerate += 1,
         }
     }
     findings.counts.constrained_faces = cover.constrained.iter().filter(|&&c| c).count();
     cover
+}
+
+/// Listed faces that cover a group.
+struct Found {
+    faces: Vec<usize>,
+    /// As in [`super::verdict::Counts::facets_rounded`].
+    rounded: bool,
+}
+
+/// Finds them where all of the group is in the domain.
+struct Finder<'a> {
+    case: &'a Case<'a>,
+    fates: &'a [Fate],
+    flood: Flood<'a>,
+    /// The number of the group that has a vertex, or whose planes were asked about it, and the answer.
+    own: Vec<u32>,
+    asked: Vec<(u32, bool)>,
+    group: u32,
+}
+
+impl<'a> Finder<'a> {
+    fn new(case: &'a Case<'a>, fates: &'a [Fate], listed: &'a Listed) -> Finder<'a> {
+        Finder {
+            case,
+            fates,
+            flood: Flood::new(&listed.surface, case.points),
+            own: vec![0; case.points.len()],
+            asked: vec![(0, false); case.points.len()],
+            group: 0,
+        }
+    }
+
+    fn cover(&mut self, facets: &[usize]) -> Option<Found> {
+        let case = self.case;
+        let frame = facets.iter().find_map(|&f| case.input.facets[f].frame)?;
+        let axes = axes_of(case, frame)?;
+        let mut boundary = Vec::new();
+        for &f in facets {
+            let quickly = polygon(case, self.fates, f, axes);
+            boundary.extend(quickly.or_else(|| cells(case, self.fates, f, axes))?);
+        }
+        self.group += 1;
+        let group = self.group;
+        for v in boundary.iter().flatten() {
+            self.own[v.index()] = group;
+        }
+        for v in facets.iter().flat_map(|&f| &case.input.facets[f].vertices) {
+            self.own[v.index()] = group;
+        }
+        let known = std::cell::OnceCell::new();
+        let mut accepts = |v: VertexId| {
+            if self.own[v.index()] == group {
+                return true;
+            }
+            let memory = &mut self.asked[v.index()];
+            if memory.0 != group {
+                let planes = known.get_or_init(|| planes(case, facets));
+                *memory = (group, is_on_planes(case, planes, v));
+            }
+            memory.1
+        };
+        let faces = self.flood.cover(axes, &boundary, &mut accepts)?;
+        let rounded = match facets {
+            [f] => case.input.facets[*f].flat && self.is_rounded(frame, *f, &faces),
+            _ => false,
+        };
+        Some(Found { faces, rounded })
+    }
+
+    /// Whether a vertex of the faces is not exactly on the plane. Those of the facet are.
+    fn is_rounded(&self, frame: [VertexId; 3], facet: usize, faces: &[usize]) -> bool {
+        let case = self.case;
+        let vertices = &case.input.facets[facet].vertices;
+        let mut others = faces.iter().flat_map(|&f| case.tables.faces[f].key);
+        others.any(|v| vertices.binary_search(&v).is_err() && !case.points.is_on_plane(frame, v))
+    }
 }
 
 /// (first facet of its group, facet) for the facets joined by merged edges, sorted.
@@ -128,426 +239,90 @@ fn same_face(case: &Case, fates: &[Fate], group: &[(usize, usize)]) -> Option<us
     case.tables.find_face([a, b, c]).filter(|_| whole && direct)
 }
 
-/// One facet, or several that were merged.
-struct Group<'a> {
-    case: &'a Case<'a>,
-    facets: Vec<usize>,
-    axes: [usize; 2],
-    areas: Vec<Area<'a>>,
-    /// The bounding boxes of the areas, and the areas by slabs along the second axis, if there are many.
-    boxes: Vec<[[f64; 2]; 2]>,
-    slabs: Option<Slabs>,
-    /// Three points of each plane of the facets, and how far off Steiner points may be.
-    planes: Vec<([VertexId; 3], f64)>,
-    /// All edges with their chains in place.
-    edges: Vec<[VertexId; 2]>,
-    /// The edges that were merged away.
-    merged: FxHashSet<[VertexId; 2]>,
-    /// Sorted.
-    vertices: Vec<VertexId>,
-    /// The chains in place of edges that a vertex is on, and where in them.
-    on_chains: FxHashMap<VertexId, Vec<(usize, usize)>>,
-}
-
-/// How a set of faces fails to cover a group.
-enum Misfit {
-    Edge([VertexId; 2], usize, usize),
-    Area(f64, f64),
-}
-
-impl<'a> Group<'a> {
-    fn new(case: &'a Case<'a>, fates: &[Fate], facets: Vec<usize>) -> Option<Group<'a>> {
-        let frame = facets.iter().find_map(|&f| case.input.facets[f].frame)?;
-        let axes = axes_of(case, frame)?;
-        let edges_of = |f: usize| {
-            let edges = case.input.facets[f].edges.iter();
-            distinct(edges.flat_map(|&e| fates[e].edges(case.input.edges[e].ends)))
-        };
-        let mut edges = Vec::new();
-        let (mut areas, mut boxes) = (Vec::new(), Vec::new());
-        for &f in &facets {
-            let own = edges_of(f);
-            areas.push(Area::new(
-                case.points,
-                axes,
-                &own,
-                &case.input.facets[f].holes,
-            ));
-            boxes.push(box_of(case, axes, &own));
-            edges.extend(own);
-        }
-        let edges = distinct(edges.into_iter());
-        let slabs = (facets.len() >= MANY).then(|| {
-            let intervals: Vec<[f64; 2]> = boxes.iter().map(|b: &[[f64; 2]; 2]| b[1]).collect();
-            Slabs::new(&intervals)
-        });
-        let own_edges = facets.iter().flat_map(|&f| &case.input.facets[f].edges);
-        let merged = own_edges
-            .filter(|&&e| fates[e] == Fate::Merged)
-            .map(|&e| case.input.edges[e].ends)
-            .collect();
-        let own = facets
-            .iter()
-            .flat_map(|&f| case.input.facets[f].vertices.iter().copied());
-        let mut vertices: Vec<VertexId> = own.chain(edges.iter().flatten().copied()).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let planes = planes(case, &facets);
-        let mut on_chains: FxHashMap<VertexId, Vec<(usize, usize)>> = FxHashMap::default();
-        for &f in &facets {
-            for &e in &case.input.facets[f].edges {
-                if let Fate::Chain(chain) = &fates[e] {
-                    for (i, &v) in chain.iter().enumerate() {
-                        on_chains.entry(v).or_default().push((e, i));
-                    }
-                }
-            }
-        }
-        Some(Group {
-            on_chains,
-            case,
-            facets,
-            axes,
-            areas,
-            boxes,
-            slabs,
-            planes,
-            edges,
-            merged,
-            vertices,
-        })
-    }
-
-    fn check(mut self, listed: &[bool], cover: &mut Cover, findings: &mut Findings) {
-        let mut filled = FxHashSet::default();
-        let candidates = self.candidates(&mut filled);
-        for &f in &candidates {
-            let of = &mut cover.facet_of[f];
-            *of = (*of).min(self.facets[0]);
-        }
-        self.exempt(&filled, cover, findings);
-        let expected = self.expected();
-        let given = candidates.iter().copied().filter(|&f| listed[f]);
-        let needed = |f: usize| !is_locally_delaunay(self.case, f);
-        // Where the mesh is convex, the faces of its hull are listed, too, whether on a facet or not.
-        let given_inside = |f: usize| listed[f] && self.case.tables.faces[f].tets == 2;
-        let choices: [&dyn Fn() -> Vec<usize>; 4] = [
-            &|| given.clone().collect(),
-            &|| match candidates.iter().any(|&f| given_inside(f)) {
-                true => self.chosen(&candidates, &expected, &given_inside),
-                false => Vec::new(),
-            },
-            &|| candidates.clone(),
-            &|| self.chosen(&candidates, &expected, &needed),
-        ];
-        let (mut covering, mut first_misfit) = (None, None);
-        for (i, choice) in choices.into_iter().enumerate() {
-            let choice = choice();
-            match self.misfit(&choice, &expected) {
-                None => {
-                    let mut others = candidates
-                        .iter()
-                        .filter(|f| choice.binary_search(f).is_err());
-                    let explains = others.all(|&f| is_locally_delaunay(self.case, f));
-                    if explains || covering.is_none() {
-                        covering = Some(choice);
-                    }
-                    if explains {
-                        break;
-                    }
-                }
-                // Of the failures, that of all candidates says most.
-                Some(misfit) if i == 2 => first_misfit = Some(misfit),
-                Some(_) => {}
-            }
-        }
-        if let Some(choice) = covering {
-            findings.counts.facets += self.facets.len();
-            findings.counts.facets_rounded += usize::from(self.is_rounded(&choice));
-            for face in choice {
-                cover.constrained[face] = true;
-            }
-            return;
-        }
-        let facets = self.facets.clone();
-        findings.report(match first_misfit.expect("all candidates were tried") {
-            Misfit::Edge(edge, faces, expected) => Violation::FacetNotCovered {
-                facets,
-                edge: edge.map(|v| self.case.place(v)),
-                faces,
-                expected,
-            },
-            Misfit::Area(covered, area) => Violation::FacetArea {
-                facets,
-                covered,
-                area,
-            },
-        });
-    }
-
-    /// The cells of the areas that hold the centroid of q and belong to them.
-    fn kept_cells_at(&self, q: &[VertexId]) -> Vec<(usize, usize)> {
-        let points = self.case.points;
-        let wobble = points.wobble(q);
-        let bounds = self.axes.map(|i| {
-            let all = || q.iter().map(|&v| points.at(v)[i]);
-            let (low, high) = (
-                all().fold(f64::INFINITY, f64::min),
-                all().fold(f64::NEG_INFINITY, f64::max),
-            );
-            [low - wobble, high + wobble]
-        });
-        let mut near = Vec::new();
-        match &self.slabs {
-            None => near.extend(0..self.areas.len() as u32),
-            Some(slabs) => slabs.around(bounds[1][0], bounds[1][1], &mut near),
-        }
-        let meets = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[1] && b[0] <= a[1];
-        let near = near.into_iter().map(|i| i as usize).filter(|&i| {
-            let own = &self.boxes[i];
-            meets(&own[0], &bounds[0]) && meets(&own[1], &bounds[1])
-        });
-        near.map(|i| (i, self.areas[i].cell_at(q)))
-            .filter(|&(i, cell)| self.areas[i].is_kept(cell))
-            .collect()
-    }
-
-    /// The candidate faces, sorted; `filled` are the cells that hold the centroid of one.
-    fn candidates(&self, filled: &mut FxHashSet<(usize, usize)>) -> Vec<usize> {
-        let tables = &self.case.tables;
-        let is_barrier = |e: &[VertexId; 2]| self.edges.binary_search(e).is_ok();
-        let mut accepted = FxHashMap::default();
-        let mut seen = FxHashSet::default();
-        let mut found = Vec::new();
-        let mut stack = self.edges.clone();
-        while let Some(edge) = stack.pop() {
-            for f in tables.fan(edge) {
-                let key = tables.faces[f].key;
-                if seen.contains(&f) || !key.iter().all(|&v| self.accepts(v, &mut accepted)) {
-                    continue;
-                }
-                seen.insert(f);
-                let [a, b, c] = key;
-                if [[a, b], [b, c], [a, c]]
-                    .iter()
-                    .any(|&[v, w]| self.bridges(v, w))
-                {
-                    continue;
-                }
-                let cells = self.kept_cells_at(&key);
-                if !cells.is_empty() {
-                    filled.extend(cells);
-                    found.push(f);
-                    let [a, b, c] = key;
-                    stack.extend(
-                        [[a, b], [b, c], [a, c]]
-                            .into_iter()
-                            .filter(|e| !is_barrier(e)),
-                    );
-                }
-            }
-        }
-        found.sort_unstable();
-        found
-    }
-
-    /// Whether vw bridges vertices of a chain. Where those are rounded, it may be an edge of the mesh, but is none of f.
-    fn bridges(&self, v: VertexId, w: VertexId) -> bool {
-        let (Some(of_v), Some(of_w)) = (self.on_chains.get(&v), self.on_chains.get(&w)) else {
-            return false;
-        };
-        let bridged = |&(e, i): &(usize, usize)| {
-            of_w.iter()
-                .any(|&(other, j)| e == other && i.abs_diff(j) > 1)
-        };
-        of_v.iter().any(bridged)
-    }
-
-    fn accepts(&self, v: VertexId, memory: &mut FxHashMap<VertexId, bool>) -> bool {
-        let on_plane = || {
-            let points = self.case.points;
-            self.planes.iter().any(|&(plane, tolerance)| {
-                points.is_on_plane(plane, v)
-                    || (!self.case.input.is_site(v) && points.near_plane(plane, v, tolerance))
-            })
-        };
-        // A vertex on the plane but beyond the border: a face with it may lie mostly in the facet, nearly coplanar with the
-        // facet's neighbour.
-        let inside = || !self.kept_cells_at(&[v]).is_empty();
-        self.vertices.binary_search(&v).is_ok()
-            || *memory.entry(v).or_insert_with(|| on_plane() && inside())
-    }
-
-    /// Takes the parts outside the domain out of the areas. Parts at merged edges are outside together or not at all.
-    fn exempt(
-        &mut self,
-        filled: &FxHashSet<(usize, usize)>,
-        cover: &mut Cover,
-        findings: &mut Findings,
-    ) {
-        let tables = &self.case.tables;
-        let is_joined = |area: &Area, cell| {
-            let mut edges = area.edges_around(cell).into_iter().map(sorted2);
-            !self.merged.is_empty() && edges.any(|e| self.merged.contains(&e))
-        };
-        let mut empty = Vec::new();
-        let mut joined_is_filled = false;
-        for (i, area) in self.areas.iter().enumerate() {
-            for cell in area.kept_cells() {
-                let joined = is_joined(area, cell);
-                if filled.contains(&(i, cell)) {
-                    joined_is_filled |= joined;
-                } else {
-                    empty.push((i, cell, joined));
-                }
-            }
-        }
-        for (i, cell, joined) in empty {
-            let area = &mut self.areas[i];
-            let Some(corner) = area.corner(cell).filter(|_| !(joined && joined_is_filled)) else {
-                continue;
-            };
-            let [before, v, after] = corner;
-            if !tables.is_used(v) || !self.case.locator.enters(v, &[before, after]) {
-                findings.counts.facet_parts_outside += 1;
-                cover.outside.push(OutsidePart {
-                    facet: self.facets[i],
-                    frame: corner,
-                    boundary: area.edges_around(cell),
-                });
-                area.drop_cell(cell);
-            }
-        }
-    }
-
-    /// A part of the candidates that covers the group, if one is found: with those that are wanted, if possible.
-    fn chosen(
-        &self,
-        candidates: &[usize],
-        expected: &[([VertexId; 2], usize)],
-        is_wanted: &dyn Fn(usize) -> bool,
-    ) -> Vec<usize> {
-        let tables = &self.case.tables;
-        // A face that stands upright is a side of a shim; it covers nothing.
-        let lies = |&f: &usize| {
-            !self
-                .case
-                .points
-                .orient2d(self.axes, tables.faces[f].key)
-                .is_zero()
-        };
-        let lying: Vec<usize> = candidates.iter().copied().filter(lies).collect();
-        let keys: Vec<[VertexId; 3]> = lying.iter().map(|&f| tables.faces[f].key).collect();
-        let wanted: Vec<bool> = lying.iter().map(|&f| is_wanted(f)).collect();
-        let need = expected.iter().map(|&(edge, faces)| match faces {
-            1 => (edge, Need::One),
-            _ => (edge, Need::TwoOrNone),
-        });
-        let in_mesh = |cover: &[usize]| cover.iter().map(|&i| lying[i]).collect::<Vec<_>>();
-        let accept = |cover: &[usize]| self.misfit(&in_mesh(cover), expected).is_none();
-        let cover = cover::find(&keys, &need.collect(), &wanted, &accept);
-        cover.map_or_else(|| lying.clone(), |cover| in_mesh(&cover))
-    }
-
-    /// How many faces each edge of the boundary has, by edges; an edge between two facets of the group is in the boundary of
-    /// both.
-    fn expected(&self) -> Vec<([VertexId; 2], usize)> {
-        let boundary = self.areas.iter().flat_map(Area::boundary);
-        let mut edges: Vec<[VertexId; 2]> = boundary.map(sorted2).collect();
-        edges.sort_unstable();
-        let counted = edges.chunk_by(|x, y| x == y);
-        counted.map(|same| (same[0], same.len())).collect()
-    }
-
-    /// Why the faces do not cover the group, if they do not.
-    fn misfit(&self, faces: &[usize], expected: &[([VertexId; 2], usize)]) -> Option<Misfit> {
-        let keys = || faces.iter().map(|&f| self.case.tables.faces[f].key);
-        // (edge, faces that it should have, faces that it has)
-        let mut edges: Vec<([VertexId; 2], usize, usize)> =
-            expected.iter().map(|&(edge, n)| (edge, n, 0)).collect();
-        edges.extend(keys().flat_map(|[a, b, c]| [[a, b], [b, c], [a, c]].map(|e| (e, 0, 1))));
-        edges.sort_unstable_by_key(|e| e.0);
-        for same in edges.chunk_by(|x, y| x.0 == y.0) {
-            let edge = same[0].0;
-            let sum = |(n, m), e: &([VertexId; 2], usize, usize)| (n + e.1, m + e.2);
-            match same.iter().fold((0, 0), sum) {
-                (1, 1) | (2, 0) => {}
-                (1, faces) => return Some(Misfit::Edge(edge, faces, 1)),
-                (_, 2) => {}
-                (_, faces) => return Some(Misfit::Edge(edge, faces, 2)),
-            }
-        }
-        let points = self.case.points;
-        let cover = |sum: &mut Areas| {
-            for [a, b, c] in keys() {
-                match points.orient2d(self.axes, [a, b, c]) {
-                    Sign::Positive => sum.add(points, [a, b, c]),
-                    Sign::Negative => sum.add(points, [a, c, b]),
-                    Sign::Zero => {}
-                }
-            }
-        };
-        let mut sum = Areas::new(self.axes);
-        cover(&mut sum);
-        self.areas.iter().for_each(|a| a.subtract_from(&mut sum));
-        if sum.sign().is_zero() {
-            return None;
-        }
-        sum.take_twice();
-        cover(&mut sum);
-        let covered = sum.take_twice().to_f64();
-        let areas = self.areas.iter().map(Area::twice_area);
-        let area = areas.fold(Dyadic::ZERO, |sum, a| sum + &a).to_f64();
-        Some(Misfit::Area(covered / 2.0, area / 2.0))
-    }
-
-    /// Whether some vertex of the faces is not exactly on the plane, although the input vertices are.
-    fn is_rounded(&self, faces: &[usize]) -> bool {
-        let [f] = self.facets[..] else { return false };
-        let facet = &self.case.input.facets[f];
-        let Some([a, b, c]) = facet.frame.filter(|_| facet.flat) else {
-            return false;
-        };
-        let vertices = faces.iter().flat_map(|&f| self.case.tables.faces[f].key);
-        let mut vertices: Vec<VertexId> = vertices.collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let points = self.case.points;
-        vertices
-            .into_iter()
-            .any(|v| !points.is_on_plane([a, b, c], v))
-    }
-}
-
-/// The bounding box of edges in the plane of the axes.
-fn box_of(case: &Case, axes: [usize; 2], edges: &[[VertexId; 2]]) -> [[f64; 2]; 2] {
-    axes.map(|i| {
-        let ends = edges.iter().flatten();
-        ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| {
-            let (x, wobble) = (case.points.at(v)[i], case.points.wobble(&[v]));
-            [low.min(x - wobble), high.max(x + wobble)]
-        })
-    })
-}
-
-/// The planes of the facets: one if all are exactly on one.
-fn planes(case: &Case, facets: &[usize]) -> Vec<([VertexId; 3], f64)> {
-    let facets = || facets.iter().map(|&f| &case.input.facets[f]);
-    let mut planes = facets().filter_map(|facet| {
-        // The bulge is rounded, and so is what is computed with it.
-        let tolerance = match facet.flat {
-            true => case.tolerance,
-            false => facet.bulge + case.tolerance.max(case.rounding),
-        };
-        facet.frame.map(|frame| (frame, tolerance))
-    });
-    let Some(first) = planes.next() else {
-        return Vec::new();
+/// The directed edges of a facet with one polygon that passes no vertex twice, counterclockwise, with their chains in place and
+/// without those that were merged away.
+fn polygon(case: &Case, fates: &[Fate], f: usize, axes: [usize; 2]) -> Option<Vec<[VertexId; 2]>> {
+    let facet = &case.input.facets[f];
+    let [polygon] = &case.plc.facets[f].polygons[..] else {
+        return None;
     };
-    let is_on_first = |&v: &VertexId| case.points.is_on_plane(first.0, v);
-    let coplanar = facets().all(|facet| {
-        (facet.flat || facet.frame.is_none()) && facet.vertices.iter().all(is_on_first)
-    });
-    let others = planes.filter(|_| !coplanar);
-    std::iter::once(first).chain(others).collect()
+    let n = polygon.len();
+    if n < 3 || facet.vertices.len() != n || facet.edges.len() != n || !facet.holes.is_empty() {
+        return None;
+    }
+    let mut merged = Vec::new();
+    let mut edges = Vec::with_capacity(n);
+    for i in 0..n {
+        let [a, b] = [polygon[i], polygon[(i + 1) % n]].map(|v| case.input.site_of[v.index()]);
+        let ends = sorted2([a, b]);
+        // Edges are sorted by their ends.
+        let found = facet
+            .edges
+            .binary_search_by_key(&ends, |&e| case.input.edges[e].ends);
+        match &fates[facet.edges[found.ok()?]] {
+            Fate::Edge => edges.push([a, b]),
+            Fate::Merged => merged.push([a, b]),
+            Fate::Chain(chain) => {
+                let pairs = chain.windows(2);
+                edges.extend(pairs.map(|w| {
+                    if a == ends[0] {
+                        [w[0], w[1]]
+                    } else {
+                        [w[1], w[0]]
+                    }
+                }));
+            }
+            Fate::Outside | Fate::Missing => return None,
+        }
+    }
+    match sign_of_area(case.points, axes, edges.iter().chain(&merged).copied()) {
+        Sign::Positive => {}
+        Sign::Negative => edges.iter_mut().for_each(|e| e.reverse()),
+        Sign::Zero => return None,
+    }
+    Some(edges)
+}
+
+/// The same for any facet.
+fn cells(case: &Case, fates: &[Fate], f: usize, axes: [usize; 2]) -> Option<Vec<[VertexId; 2]>> {
+    let facet = &case.input.facets[f];
+    let mut edges = Vec::new();
+    let mut merged = Vec::new();
+    for &e in &facet.edges {
+        let ends = case.input.edges[e].ends;
+        match &fates[e] {
+            Fate::Outside | Fate::Missing => return None,
+            Fate::Merged => merged.push(ends),
+            Fate::Edge | Fate::Chain(_) => {}
+        }
+        edges.extend(fates[e].edges(ends));
+    }
+    let area = Area::new(
+        case.points,
+        axes,
+        &distinct(edges.into_iter()),
+        &facet.holes,
+    );
+    let mut boundary = area.boundary();
+    boundary.retain(|&e| merged.is_empty() || !merged.contains(&sorted2(e)));
+    (!boundary.is_empty()).then_some(boundary)
+}
+
+/// The sign of the area that a closed polygon has on its left.
+fn sign_of_area(
+    points: &Points,
+    axes: [usize; 2],
+    edges: impl Iterator<Item = [VertexId; 2]> + Clone,
+) -> Sign {
+    let Some([origin, _]) = edges.clone().next() else {
+        return Sign::Zero;
+    };
+    let quickly = points.quick_area(axes, origin, edges.clone());
+    quickly.unwrap_or_else(|| {
+        let mut sum = Areas::new(axes);
+        for [a, b] in edges.filter(|e| !e.contains(&origin)) {
+            sum.add(points, [origin, a, b]);
+        }
+        sum.sign()
+    })
 }

@@ -22,6 +22,12 @@
 //! is below 2⁻⁵⁰⁰. Coordinates beyond 2¹⁰⁰ use no shortcut (which excludes overflow, too: insphere has degree 5).
 //! So |determinant| > 2n·u·P + 2⁻⁵⁰⁰ proves the sign.
 //!
+//! # Where doubles are exact
+//! Let all coordinates be multiples of g = 2^k. If every difference is below 2⁵³g it is exact, and so are all minors and
+//! sums on the way to a determinant of degree n whose bound P above is below 2⁵³gⁿ: they are multiples of a power of g that
+//! P bounds, since X, Y and Z are at least g (or one of them is zero, and then the determinant is, too). Such a value has
+//! the right sign, zero included ([`Exactness`]). k ≥ −200 keeps underflow away.
+//!
 //! # Points that are not quite there
 //! Where the differences are only known up to ω each (of rounded coordinates, or to a rounded centroid), let X′ = X + ω
 //! and so on. A product of three of them changes by at most (X+ω)(Y+ω)(Z+ω) − XYZ ≤ ω·(X′Y′ + Y′Z′ + Z′X′), and
@@ -78,6 +84,40 @@ impl Permanent {
     }
 }
 
+/// Up to which bounds of their terms determinants are computed exactly.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Exactness {
+    /// For degree 3.
+    pub(super) orient: f64,
+    /// For degree 5.
+    pub(super) insphere: f64,
+}
+
+impl Exactness {
+    /// Where coordinates are multiples of 2^k. Half of 2⁵³gⁿ, as the bounds are rounded.
+    pub(super) fn new(k: i16) -> Exactness {
+        if !(-200..=100).contains(&k) {
+            return Exactness::default();
+        }
+        let limit = |degree: i32| 2f64.powi(52 + degree * i32::from(k));
+        Exactness {
+            orient: limit(3),
+            insphere: limit(5),
+        }
+    }
+}
+
+impl Permanent {
+    /// The sign, if the value is exact.
+    #[inline(always)]
+    pub(super) fn sign_below(self, limit: f64) -> Option<Sign> {
+        if self.terms >= limit {
+            return None;
+        }
+        Some(beyond(self.value, 0.0).unwrap_or(Sign::Zero))
+    }
+}
+
 /// The determinant of three rows.
 #[inline(always)]
 pub(super) fn det3([a, b, c]: [[f64; 3]; 3]) -> f64 {
@@ -99,13 +139,19 @@ pub(super) fn det3_and_terms([a, b, c]: [[f64; 3]; 3]) -> Permanent {
     }
 }
 
+/// The larger one; neither is NaN, about which [`f64::max`] would care.
+#[inline(always)]
+fn larger(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
+}
+
 /// The largest absolute value along each axis.
 #[inline(always)]
 fn extent<const N: usize>(rows: &[[f64; 3]; N]) -> [f64; 3] {
     let mut extent = [0.0f64; 3];
     for row in rows {
         for (e, x) in extent.iter_mut().zip(row) {
-            *e = e.max(x.abs());
+            *e = larger(*e, x.abs());
         }
     }
     extent
@@ -120,6 +166,17 @@ fn orient_bound([x, y, z]: [f64; 3], wobble: f64) -> f64 {
     }
     let [x, y, z] = [x + wobble, y + wobble, z + wobble];
     96.0 * HALF_ULP * (x * y * z) + 6.375 * wobble * (x * y + y * z + z * x) + UNDERFLOW
+}
+
+/// det[b−a, c−a, d−a] of points that are doubles, with an upper bound of its terms; [`Permanent::sign`] with n = 8.
+#[inline(always)]
+pub(super) fn orient_of_doubles([a, b, c, d]: [[f64; 3]; 4]) -> Permanent {
+    let rows = [minus(b, a), minus(c, a), minus(d, a)];
+    let [x, y, z] = extent(&rows);
+    Permanent {
+        value: det3(rows),
+        terms: 6.0 * (x * y * z),
+    }
 }
 
 /// The sign of det[b−a, c−a, d−a], the differences being known up to `wobble`.
@@ -167,9 +224,10 @@ pub(super) fn contains(
 /// The minors of insphere: the determinants of three of the four rows.
 const MINORS: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
-/// The sign of insphere, positive iff e is inside the circumsphere of the positive abcd.
+/// insphere, positive iff e is inside the circumsphere of the positive abcd, with an upper bound of its terms, and the extent
+/// of the differences.
 #[inline(always)]
-pub(super) fn insphere([a, b, c, d, e]: [[f64; 3]; 5], wobble: f64) -> Option<Sign> {
+fn insphere_and_extent([a, b, c, d, e]: [[f64; 3]; 5]) -> (Permanent, [f64; 3]) {
     let q = [minus(a, e), minus(b, e), minus(c, e), minus(d, e)];
     let lift = [
         dot(q[0], q[0]),
@@ -188,17 +246,26 @@ pub(super) fn insphere([a, b, c, d, e]: [[f64; 3]; 5], wobble: f64) -> Option<Si
     // As in the formula: the coefficients −O(e,b,c,d), O(e,a,c,d), −O(e,a,b,d), O(e,a,b,c), negated.
     let value = (lift[0] * bcd + lift[2] * abd) - (lift[1] * acd + lift[3] * abc);
     let [x, y, z] = extent(&q);
-    let squares = x * x + y * y + z * z;
-    let bound = 816.0 * HALF_ULP * (x * y * z) * squares + UNDERFLOW;
-    if wobble == 0.0 {
-        return beyond(value, bound);
-    }
+    let terms = 24.0 * (x * y * z) * (x * x + y * y + z * z);
+    (Permanent { value, terms }, [x, y, z])
+}
+
+/// insphere of points that are doubles, with an upper bound of its terms; [`Permanent::sign`] with n = 17.
+#[inline(always)]
+pub(super) fn insphere_of_doubles(p: [[f64; 3]; 5]) -> Permanent {
+    insphere_and_extent(p).0
+}
+
+/// The sign of insphere, the differences being known up to `wobble`.
+#[inline(always)]
+pub(super) fn insphere(p: [[f64; 3]; 5], wobble: f64) -> Option<Sign> {
+    let (determinant, [x, y, z]) = insphere_and_extent(p);
     let [x, y, z] = [x + wobble, y + wobble, z + wobble];
     let squares = x * x + y * y + z * z;
     let product = x * y * z;
     let change = (x * y + y * z + z * x) * squares + 2.0 * product * (x + y + z);
     let bound = 816.0 * HALF_ULP * product * squares + 25.5 * wobble * change + UNDERFLOW;
-    beyond(value, bound)
+    beyond(determinant.value, bound)
 }
 
 /// The same by the terms; no wobble.

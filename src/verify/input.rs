@@ -1,6 +1,7 @@
 //! The PLC in terms of the points of the mesh: every input vertex is the used mesh vertex with the same coordinates, or
 //! a point of its own if there is none.
 
+use super::places::Places;
 use super::points::{Points, cross, dot, minus};
 use super::tables::sorted2;
 use crate::mesh::{ExportedMesh, VertexId};
@@ -48,11 +49,10 @@ pub(super) struct Input {
     pub(super) holes: Vec<VertexId>,
     /// The points of the region points.
     pub(super) regions: Vec<VertexId>,
-}
-
-/// Equal for equal coordinates (−0 is 0).
-pub(super) fn place_key(p: [f64; 3]) -> [u64; 3] {
-    p.map(|x| (x + 0.0).to_bits())
+    /// Used mesh vertices that are doubles, and others at the same places before them.
+    pub(super) coincident: Vec<[VertexId; 2]>,
+    /// Where the used mesh vertices are that are doubles, and the input vertices that are none.
+    pub(super) places: Places,
 }
 
 impl Input {
@@ -65,21 +65,30 @@ impl Input {
     ) -> (Input, Points) {
         // The vertices of the mesh, then the other points of the input.
         let mut coordinates = mesh.vertices.clone();
-        let mut at: FxHashMap<[u64; 3], VertexId> = FxHashMap::default();
+        let mut places = Places::new(coordinates.len() + plc.vertices.len());
+        let mut coincident = Vec::new();
         for (v, &p) in coordinates.iter().enumerate() {
-            if used[v] && !exact.contains_key(&VertexId::new(v)) {
-                at.entry(place_key(p)).or_insert(VertexId::new(v));
+            let v = VertexId::new(v);
+            if used[v.index()] && (exact.is_empty() || !exact.contains_key(&v)) {
+                let first = places.first_at(&coordinates, p, v);
+                if first != v {
+                    coincident.push([first, v]);
+                }
             }
+        }
+        let mut site_of = Vec::with_capacity(plc.vertices.len());
+        for &p in &plc.vertices {
+            let new = VertexId::new(coordinates.len());
+            let site = places.first_at(&coordinates, p, new);
+            if site == new {
+                coordinates.push(p);
+            }
+            site_of.push(site);
         }
         let mut add = |p: [f64; 3]| {
             coordinates.push(p);
             VertexId::new(coordinates.len() - 1)
         };
-        let site_of: Vec<VertexId> = plc
-            .vertices
-            .iter()
-            .map(|&p| *at.entry(place_key(p)).or_insert_with(|| add(p)))
-            .collect();
         let holes = plc.holes.iter().map(|&p| add(p)).collect();
         let regions = plc.regions.iter().map(|r| add(r.point)).collect();
         let facet_holes: Vec<Vec<VertexId>> = plc
@@ -138,6 +147,8 @@ impl Input {
                 facets,
                 holes,
                 regions,
+                coincident,
+                places,
             },
             points,
         )

@@ -1,22 +1,97 @@
 //! The faces and edges that the mesh lists are faces and edges of its tetrahedra.
+//!
+//! That they cover facets and segments is not believed, but they are where a cover is looked for first.
 
+use super::surface::Surface;
+use super::tables::sorted2;
 use super::{Case, Findings, Violation};
+use crate::mesh::{ExportedMesh, VertexId};
 
-pub(super) fn check(case: &Case, findings: &mut Findings) {
-    for (index, face) in case.mesh.faces.iter().enumerate() {
-        if case.tables.find_face(face.vertices).is_none() {
-            findings.report(Violation::ListedNotInMesh {
-                element: "face",
-                index,
-            });
+/// What the mesh lists.
+pub(super) struct Listed {
+    /// The faces that it lists and has, and their edges.
+    pub(super) surface: Surface,
+    /// The edges that it lists and has: those of vertex v are `ends[start[v]..start[v + 1]]`.
+    start: Vec<u32>,
+    ends: Vec<VertexId>,
+}
+
+impl Listed {
+    /// Whether any edge is listed.
+    pub(super) fn has_edges(&self) -> bool {
+        !self.ends.is_empty()
+    }
+
+    /// The other ends of the listed edges at a vertex, in the order of the list.
+    pub(super) fn neighbours(&self, v: VertexId) -> &[VertexId] {
+        match self.start.get(v.index()..v.index() + 2) {
+            Some(&[start, end]) => &self.ends[start as usize..end as usize],
+            _ => &[],
         }
     }
+
+    /// Whether an edge is listed.
+    pub(super) fn has(&self, [a, b]: [VertexId; 2]) -> bool {
+        let [at_a, at_b] = [a, b].map(|v| self.neighbours(v));
+        match at_a.len() <= at_b.len() {
+            true => at_a.contains(&b),
+            false => at_b.contains(&a),
+        }
+    }
+}
+
+/// Whether a vertex is in a listed face.
+pub(super) fn vertices(mesh: &ExportedMesh, vertices: usize) -> Vec<bool> {
+    let mut listed = vec![false; vertices];
+    for v in mesh.faces.iter().flat_map(|f| f.vertices) {
+        listed[v.index()] = true;
+    }
+    listed
+}
+
+pub(super) fn check(case: &Case, findings: &mut Findings) -> Listed {
+    let mut faces = Vec::with_capacity(case.mesh.faces.len());
+    for (index, face) in case.mesh.faces.iter().enumerate() {
+        match case.tables.find_face(face.vertices) {
+            Some(f) => faces.push(f as u32),
+            None => findings.report(Violation::ListedNotInMesh {
+                element: "face",
+                index,
+            }),
+        }
+    }
+    faces.sort_unstable();
+    faces.dedup();
+    let surface = Surface::new(case, faces);
+    let mut edges = Vec::with_capacity(case.mesh.edges.len());
+    let mut start = vec![0u32; case.mesh.vertices.len() + 1];
     for (index, edge) in case.mesh.edges.iter().enumerate() {
-        if !case.tables.has_edge(edge.vertices) {
+        let edge = sorted2(edge.vertices);
+        if edge[0] == edge[1] || !(surface.has_edge(edge) || case.tables.has_edge(edge)) {
             findings.report(Violation::ListedNotInMesh {
                 element: "edge",
                 index,
             });
+            continue;
         }
+        edges.push(edge);
+        edge.iter().for_each(|v| start[v.index() + 1] += 1);
+    }
+    for i in 1..start.len() {
+        start[i] += start[i - 1];
+    }
+    let mut next = start.clone();
+    let mut ends = vec![VertexId::INFINITE; 2 * edges.len()];
+    for &[a, b] in &edges {
+        for (v, w) in [(a, b), (b, a)] {
+            let place = &mut next[v.index()];
+            ends[*place as usize] = w;
+            *place += 1;
+        }
+    }
+    Listed {
+        surface,
+        start,
+        ends,
     }
 }

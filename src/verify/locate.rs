@@ -3,6 +3,7 @@
 //!
 //! For n tetrahedra and m points: O(m log m) for the tree, and O(log m) for each tetrahedron of reasonable shape.
 
+use super::Case;
 use super::points::Points;
 use super::tables::{INWARD, Tables};
 use crate::mesh::VertexId;
@@ -40,44 +41,70 @@ struct Query {
     own: u32,
 }
 
-/// The points and the tetrahedra that contain them.
+/// Points and the tetrahedra that contain them.
 pub(super) struct Locator<'a> {
     points: &'a Points,
-    tables: &'a Tables,
-    /// For each boundary face and the centroid of the first tetrahedron, in this order: the tetrahedra besides its own.
-    others: Vec<(u32, u32)>,
-    boundary_faces: u32,
+    tables: &'a Tables<'a>,
     /// The tetrahedra that contain single points.
     around: FxHashMap<VertexId, Vec<usize>>,
 }
 
+/// (f, t) for the tetrahedra t whose closure contains the centroid of the boundary face f, besides that of the face.
+pub(super) fn around_faces(case: &Case, boundary: &[usize]) -> Vec<(usize, usize)> {
+    let faces = boundary.iter().map(|&f| {
+        let face = &case.tables.faces[f];
+        let [a, b, c] = face.key;
+        Query {
+            vertices: [a, b, c, VertexId::INFINITE],
+            own: face.first().tet() as u32,
+        }
+    });
+    let found = pairs(case.points, case.tables, &faces.collect::<Vec<_>>());
+    let names = found.into_iter();
+    names
+        .map(|(query, t)| (boundary[query as usize], t as usize))
+        .collect()
+}
+
+/// The tetrahedra whose closure contains the centroid of the first one, besides this, in increasing order.
+pub(super) fn around_first(case: &Case) -> Vec<usize> {
+    let query = Query {
+        vertices: case.tables.tets[0],
+        own: 0,
+    };
+    let found = pairs(case.points, case.tables, &[query]);
+    found.into_iter().map(|(_, t)| t as usize).collect()
+}
+
+/// (query, tetrahedron) for all that contain the point of a query and are not its own, in order of queries, then of
+/// tetrahedra.
+fn pairs(points: &Points, tables: &Tables, queries: &[Query]) -> Vec<(u32, u32)> {
+    if queries.is_empty() {
+        return Vec::new();
+    }
+    let mut pairs = Search::new(points, queries).pairs(points, tables, queries);
+    pairs.sort_by_key(|&(query, _)| query);
+    pairs
+}
+
 impl<'a> Locator<'a> {
-    /// Locates the centroids of the boundary faces, that of the first tetrahedron, and the `singles`.
+    /// Locates the `singles`.
     pub(super) fn new(
         points: &'a Points,
         tables: &'a Tables,
         singles: impl Iterator<Item = VertexId>,
     ) -> Locator<'a> {
         let none = VertexId::INFINITE;
-        let query = |vertices, own| Query { vertices, own };
-        let mut queries: Vec<Query> = tables
-            .boundary()
-            .map(|(_, face)| {
-                let [a, b, c] = face.key;
-                query([a, b, c, none], face.sides[0].0)
-            })
-            .collect();
-        let boundary_faces = queries.len();
-        queries.push(query(tables.tets[0], 0));
-        queries.extend(singles.map(|v| query([v, none, none, none], u32::MAX)));
-        let mut others = Search::new(points, &queries).pairs(points, tables, &queries);
-        others.sort_by_key(|&(query, _)| query);
+        let query = |v| Query {
+            vertices: [v, none, none, none],
+            own: u32::MAX,
+        };
+        let queries: Vec<Query> = singles.map(query).collect();
         let mut around: FxHashMap<VertexId, Vec<usize>> = FxHashMap::default();
-        for query in &queries[boundary_faces + 1..] {
+        for query in &queries {
             around.insert(query.vertices[0], Vec::new());
         }
-        let singles = others.partition_point(|&(query, _)| query as usize <= boundary_faces);
-        for (query, t) in others.split_off(singles) {
+        for (query, t) in pairs(points, tables, &queries) {
             let found = around
                 .entry(queries[query as usize].vertices[0])
                 .or_default();
@@ -89,23 +116,8 @@ impl<'a> Locator<'a> {
         Locator {
             points,
             tables,
-            others,
-            boundary_faces: boundary_faces as u32,
             around,
         }
-    }
-
-    /// (i, t) for the tetrahedra t whose closure contains the centroid of the i-th boundary face, besides that of the face;
-    /// sorted.
-    pub(super) fn around_boundary(&self) -> &[(u32, u32)] {
-        let end = |&(query, _): &(u32, u32)| query < self.boundary_faces;
-        &self.others[..self.others.partition_point(end)]
-    }
-
-    /// The tetrahedra whose closure contains the centroid of the first one, besides this, in increasing order.
-    pub(super) fn around_first(&self) -> impl Iterator<Item = usize> + '_ {
-        let others = self.others[self.around_boundary().len()..].iter();
-        others.map(|&(_, t)| t as usize)
     }
 
     /// The tetrahedra whose closure contains a point that was asked for, in increasing order.
@@ -143,19 +155,10 @@ impl Query {
 
     fn site(&self, points: &Points, query: usize) -> Site {
         let vertices = self.vertices();
-        let share = vertices.len() as f64;
-        let at = [0, 1, 2].map(|i| {
-            vertices
-                .iter()
-                .map(|&v| points.at(v)[i] / share)
-                .sum::<f64>()
-        });
-        // At most six roundings of relative size 2⁻⁵³ on the way to the centre of up to four points.
-        let coordinates = vertices.iter().flat_map(|&v| points.at(v));
-        let largest = coordinates.fold(0.0f64, |m, x| m.max(x.abs()));
+        let (at, slack) = points.centroid(vertices);
         Site {
             at,
-            slack: 16.0 * f64::EPSILON * largest + f64::MIN_POSITIVE + points.wobble(vertices),
+            slack,
             query: query as u32,
         }
     }

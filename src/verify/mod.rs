@@ -14,7 +14,7 @@
 //! | `segments` | every segment is a chain of mesh edges |
 //! | `facets` | every facet is a union of mesh faces |
 //! | `delaunay` | every other face is locally Delaunay |
-//! | `domain`, `hull`, `shells` | the tetrahedra fill the domain: the convex hull, or the inside without holes |
+//! | `domain`, `hull`, `shells`, `winding` | the tetrahedra fill the domain: the convex hull, or the inside without holes |
 //! | `regions` | region attributes |
 //!
 //! Premise: the PLC is valid, that is, its facets and segments intersect in common segments and vertices only. (If it
@@ -34,24 +34,32 @@ mod facets;
 mod filter;
 mod fixed;
 mod formulas;
+mod gather;
+mod group;
 mod hull;
 mod input;
 mod listed;
 mod locate;
 mod orientation;
+mod places;
 mod planar;
+mod plane;
 mod points;
 mod positions;
+mod probe;
 mod regions;
 mod segments;
 mod shells;
 mod slabs;
 mod structure;
 mod sums;
+mod surface;
 mod tables;
 mod verdict;
 mod vertices;
 mod violation;
+mod winding;
+mod words;
 
 pub use verdict::{Counts, Place, Verdict};
 pub use violation::Violation;
@@ -61,6 +69,7 @@ use crate::plc::Plc;
 use input::Input;
 use locate::Locator;
 use points::Points;
+use std::borrow::Cow;
 use tables::Tables;
 use verdict::Findings;
 
@@ -109,7 +118,7 @@ struct Case<'a> {
     mesh: &'a ExportedMesh,
     options: VerifyOptions,
     points: &'a Points,
-    tables: &'a Tables,
+    tables: &'a Tables<'a>,
     input: &'a Input,
     locator: Locator<'a>,
     /// [`VerifyOptions::tolerance`] as a distance.
@@ -138,8 +147,9 @@ impl Case<'_> {
 
 /// Checks that `mesh` is a constrained Delaunay tetrahedralization of `plc`, Steiner points permitted.
 ///
-/// O(n log n) for a mesh of n tetrahedra, plus what a facet with m edges costs for each of its faces: O(k), where k of the
-/// edges are at the height of the face.
+/// O(n) for a mesh of n tetrahedra whose listed faces cover the facets and which has no vertex or edge with very many
+/// tetrahedra; O(log m) for each of the m edges of a facet that is more than one polygon. Where faces have to be searched for, each
+/// of them costs O(k) for k edges of its facet at its height.
 pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict {
     let mut findings = Findings::new(options.cap);
     structure::check(plc, mesh, &mut findings);
@@ -155,9 +165,17 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         return findings.verdict();
     }
     let (input, points) = Input::new(plc, &used, mesh, exact);
-    let mut tets = mesh.tets.clone();
-    orientation::check(&points, &mut tets, &mut findings);
-    let tables = Tables::new(tets, mesh.vertices.len());
+    let asked = (plc.facets.is_empty() && plc.segments.is_empty() && mesh.regions.is_empty())
+        .then(|| listed::vertices(mesh, used.len()));
+    let tets = Cow::Borrowed(&mesh.tets[..]);
+    let mut tables = Tables::new(&points, tets, used.clone(), asked.clone());
+    findings.counts.tets = mesh.tets.len();
+    if !tables.is_positive || !points.are_doubles() {
+        let tets = orientation::check(&points, &mesh.tets, &mut findings);
+        if findings.counts.turned {
+            tables = Tables::new(&points, tets, used, asked);
+        }
+    }
     let unused = input.site_of.iter().filter(|v| !tables.is_used(**v));
     let singles = unused.chain(&input.holes).chain(&input.regions).copied();
     let case = Case {
@@ -171,11 +189,11 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         tolerance: options.tolerance * ulp(points.largest()),
         rounding: VerifyOptions::default().tolerance * ulp(points.largest()),
     };
-    listed::check(&case, &mut findings);
+    let listed = listed::check(&case, &mut findings);
     adjacency::check(&case, &mut findings);
     vertices::check(&case, &mut findings);
-    let fates = segments::check(&case, &mut findings);
-    let cover = facets::check(&case, &fates, &mut findings);
+    let fates = segments::check(&case, &listed, &mut findings);
+    let cover = facets::check(&case, &fates, &listed, &mut findings);
     delaunay::check(
         &case,
         &cover.constrained,
@@ -184,10 +202,34 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
     );
     domain::check(&case, &fates, &cover, &mut findings);
     regions::check(&case, &cover.constrained, &mut findings);
+    findings.counts.exact_signs = points.exact_signs();
     findings.verdict()
 }
 
 /// The distance from a non-negative double to the next one.
 fn ulp(x: f64) -> f64 {
     x.next_up() - x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the checks look at, for a mesh that uses all its vertices.
+    pub(super) fn with_case(plc: &Plc, mesh: &ExportedMesh, look: impl FnOnce(&Case)) {
+        let used = vec![true; mesh.vertices.len()];
+        let (input, points) = Input::new(plc, &used, mesh, rustc_hash::FxHashMap::default());
+        let tables = Tables::new(&points, Cow::Borrowed(&mesh.tets), used, None);
+        look(&Case {
+            plc,
+            mesh,
+            options: VerifyOptions::default(),
+            points: &points,
+            tables: &tables,
+            input: &input,
+            locator: Locator::new(&points, &tables, std::iter::empty()),
+            tolerance: 0.0,
+            rounding: 0.0,
+        });
+    }
 }

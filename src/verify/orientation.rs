@@ -5,39 +5,55 @@ use super::points::Points;
 use super::{Findings, Place, Violation};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use std::borrow::Cow;
+
+/// How far ahead of their use points are asked for.
+const AHEAD: usize = 6;
 
 /// Checks the signs, and turns the tetrahedra of a mesh with the other convention.
-pub(super) fn check(points: &Points, tets: &mut [[VertexId; 4]], findings: &mut Findings) {
-    let signs: Vec<Sign> = tets.iter().map(|&t| points.orient(t)).collect();
-    let spoilt =
-        |t: &[VertexId; 4], sign: Sign| points.orient_rounded(*t).is_some_and(|s| s != sign);
-    findings.counts.spoilt_by_rounding = tets
-        .iter()
-        .zip(&signs)
-        .filter(|(t, s)| spoilt(t, **s))
-        .count();
-    findings.counts.tets = tets.len();
-    if !signs.contains(&Sign::Positive) && signs.contains(&Sign::Negative) {
+pub(super) fn check<'a>(
+    points: &Points,
+    tets: &'a [[VertexId; 4]],
+    findings: &mut Findings,
+) -> Cow<'a, [[VertexId; 4]]> {
+    let mut tets = Cow::Borrowed(tets);
+    // Negative, zero, positive.
+    let mut signs = [0; 3];
+    for (t, &tet) in tets.iter().enumerate() {
+        if let Some(ahead) = tets.get(t + AHEAD) {
+            ahead[1..].iter().for_each(|&v| points.prefetch(v));
+        }
+        let sign = points.orient(tet);
+        signs[match sign {
+            Sign::Negative => 0,
+            Sign::Zero => 1,
+            Sign::Positive => 2,
+        }] += 1;
+        if !points.are_doubles() {
+            let rounded = points.orient_rounded(tet);
+            findings.counts.spoilt_by_rounding += usize::from(rounded.is_some_and(|s| s != sign));
+        }
+    }
+    let [negative, flat, positive] = signs;
+    if positive == 0 && negative > 0 {
         findings.counts.turned = true;
-        for t in tets.iter_mut() {
-            t.swap(2, 3);
+        tets.to_mut().iter_mut().for_each(|t| t.swap(2, 3));
+    }
+    let wrong = if findings.counts.turned { 0 } else { negative };
+    if wrong + flat > 0 {
+        for (t, &tet) in tets.iter().enumerate() {
+            let sign = points.orient(tet);
+            if !sign.is_positive() {
+                findings.report(Violation::Orientation {
+                    tet: t,
+                    flat: sign.is_zero(),
+                    vertices: tet.map(|id| Place {
+                        id,
+                        at: points.at(id),
+                    }),
+                });
+            }
         }
     }
-    let wrong = if findings.counts.turned {
-        Sign::Positive
-    } else {
-        Sign::Negative
-    };
-    for (t, &sign) in signs.iter().enumerate() {
-        if sign == wrong || sign.is_zero() {
-            findings.report(Violation::Orientation {
-                tet: t,
-                flat: sign.is_zero(),
-                vertices: tets[t].map(|id| Place {
-                    id,
-                    at: points.at(id),
-                }),
-            });
-        }
-    }
+    tets
 }

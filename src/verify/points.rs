@@ -1,18 +1,19 @@
 //! All points that a check talks about, and the exact signs of their determinants.
 //!
 //! A sign is first asked of doubles ([`super::filter`]), then, where points are no doubles, of doubles relative to one of them
-//! ([`Approx`]), and then of integers of a fixed size ([`super::fixed`]), or of any size where coordinates are of too
-//! different an order of magnitude.
+//! ([`Approx`]), and then of integers: of a few machine words ([`super::words`]), of any fixed size ([`super::fixed`]), or of
+//! any size at all where coordinates are of too different an order of magnitude. The signs that needed integers are counted.
 
-use super::filter::{self, Permanent};
+use super::filter::{self, Exactness, Permanent};
 use super::fixed::{self, Scaled};
-use super::formulas::{Compare, Insphere, Orient, Side, Side2d};
+use super::formulas::{Insphere, Orient, Side};
+use super::words::{self, Cell};
+use crate::machine::prefetch;
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::formula;
 use arrayvec::ArrayVec;
 use rustc_hash::FxHashMap;
-use std::cmp::Ordering;
 
 /// The points: first the vertices of the mesh, then those points of the input (vertices, hole and region points) that
 /// are no mesh vertices. A [`VertexId`] in this module names any of them.
@@ -22,8 +23,28 @@ pub(super) struct Points {
     exact: FxHashMap<VertexId, Elsewhere>,
     /// How far each point may be from its coordinates along an axis; empty if no point is elsewhere.
     wobble: Vec<f64>,
-    shortcut: bool,
+    /// Whether all coordinates are small enough for the filters.
+    pub(super) shortcut: bool,
     largest: f64,
+    /// The greatest k for each point such that its coordinates are multiples of 2^k; [`ELSEWHERE`] if they are no doubles.
+    grain: Vec<i16>,
+    exactness: Exactness,
+    exact_signs: std::cell::Cell<usize>,
+}
+
+/// Below all exponents.
+const ELSEWHERE: i16 = i16::MIN;
+
+/// The greatest k such that a number is a multiple of 2^k; above all of them for zero.
+#[inline(always)]
+fn grain(x: f64) -> i16 {
+    let bits = x.to_bits();
+    let fraction = bits & ((1 << 52) - 1);
+    match (bits >> 52 & 0x7ff) as i16 {
+        0 if fraction == 0 => i16::MAX,
+        0 => -1074 + fraction.trailing_zeros() as i16,
+        biased => biased - 1075 + (fraction | 1 << 52).trailing_zeros() as i16,
+    }
 }
 
 /// Where a point is exactly.
@@ -60,7 +81,14 @@ impl Points {
             .iter()
             .flatten()
             .fold(0.0f64, |m, x| m.max(x.abs()));
+        let grain: Vec<i16> = coordinates
+            .iter()
+            .map(|p| grain(p[0]).min(grain(p[1])).min(grain(p[2])))
+            .collect();
         Points {
+            exactness: Exactness::new(grain.iter().copied().min().unwrap_or(0)),
+            grain,
+            exact_signs: std::cell::Cell::new(0),
             coordinates,
             exact: FxHashMap::default(),
             wobble: Vec::new(),
@@ -83,6 +111,7 @@ impl Points {
                 _ => r.to_f64().abs() * 1.0001 + f64::MIN_POSITIVE,
             });
             self.wobble[v.index()] = wobble[0].max(wobble[1]).max(wobble[2]);
+            self.grain[v.index()] = ELSEWHERE;
             let [x, y, z] = at.0.each_ref().map(Scaled::from_dyadic);
             let scaled = x.zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
             let rest = rest.each_ref().map(Approx::rounded);
@@ -143,22 +172,96 @@ impl Points {
         formula::orient3d(p.each_ref())
     }
 
+    /// Lets the processor fetch the coordinates of a point that will soon be wanted.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, v: VertexId) {
+        prefetch(&self.coordinates, v.index());
+    }
+
+    /// Whether all points are exactly where their coordinates say.
+    pub(super) fn are_doubles(&self) -> bool {
+        self.exact.is_empty()
+    }
+
+    /// The points that are not where their coordinates say, in increasing order.
+    pub(super) fn elsewhere(&self) -> Vec<VertexId> {
+        let mut all: Vec<VertexId> = self.exact.keys().copied().collect();
+        all.sort_unstable();
+        all
+    }
+
+    /// The coordinates of all points, rounded.
+    pub(super) fn coordinates(&self) -> &[[f64; 3]] {
+        &self.coordinates
+    }
+
+    /// How many points there are.
+    pub(super) fn len(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// How many signs were decided by integers so far.
+    pub(super) fn exact_signs(&self) -> usize {
+        self.exact_signs.get()
+    }
+
+    /// The points in the largest unit that makes them integers, if those are small enough.
+    #[inline(always)]
+    pub(super) fn cells<const N: usize>(&self, ids: [VertexId; N]) -> Option<[Cell; N]> {
+        let grain = ids.iter().map(|v| self.grain[v.index()]);
+        let unit = match grain.min() {
+            None | Some(i16::MAX) => 0,
+            Some(k) if (-1000..1000).contains(&k) => i64::from(k),
+            Some(_) => return None,
+        };
+        let scale = f64::from_bits(((1023 - unit) as u64) << 52);
+        let mut cells = [[0; 3]; N];
+        let mut fits = true;
+        for (cell, v) in cells.iter_mut().zip(ids) {
+            for (to, from) in cell.iter_mut().zip(self.at(v)) {
+                let x = from * scale;
+                fits &= x.abs() < words::LARGEST;
+                *to = x as i64;
+            }
+        }
+        fits.then_some(cells)
+    }
+
+    /// A sign that is decided by integers.
+    pub(super) fn counted(&self, sign: Sign) -> Sign {
+        self.exact_signs.set(self.exact_signs.get() + 1);
+        sign
+    }
+
+    /// A sign by integers that may be long.
+    pub(super) fn in_fixed<F: fixed::Formula>(&self, ids: &[VertexId], formula: &F) -> Sign {
+        self.counted(fixed::sign(self, ids, formula))
+    }
+
     /// The sign of det[b−a, c−a, d−a].
     #[inline]
     pub(super) fn orient(&self, t: [VertexId; 4]) -> Sign {
         let wobble = self.wobble(&t);
         // Not map(), which is not always inlined.
         let p = [self.at(t[0]), self.at(t[1]), self.at(t[2]), self.at(t[3])];
-        if self.shortcut
-            && let Some(sign) = filter::orient(p, wobble)
-        {
-            return sign;
+        if !self.shortcut {
+            return self.orient_slowly(t, wobble);
         }
-        self.orient_slowly(t, wobble)
+        let filtered = if wobble == 0.0 {
+            let determinant = filter::orient_of_doubles(p);
+            let certain = determinant.sign(8);
+            certain.or_else(|| determinant.sign_below(self.exactness.orient))
+        } else {
+            filter::orient(p, wobble)
+        };
+        filtered.unwrap_or_else(|| self.orient_slowly(t, wobble))
     }
 
     #[cold]
     fn orient_slowly(&self, t: [VertexId; 4], wobble: f64) -> Sign {
+        if let Some(cells) = self.cells(t) {
+            return self.counted(words::orient(cells));
+        }
         let filtered = match wobble == 0.0 {
             true if self.shortcut => filter::orient_by_terms(t.map(|v| self.at(v))),
             true => None,
@@ -167,7 +270,7 @@ impl Points {
                 formula::orient3d(p.each_ref()).sign()
             }
         };
-        filtered.unwrap_or_else(|| fixed::sign(self, &t, &Orient))
+        filtered.unwrap_or_else(|| self.in_fixed(&t, &Orient))
     }
 
     /// The coordinates relative to a double point, with a bound of their rounding ([`Approx`]): those of a point that is exactly
@@ -197,21 +300,29 @@ impl Points {
     }
 
     /// Positive iff e is inside the circumsphere of the positive abcd.
-    #[inline]
+    #[inline(always)]
     pub(super) fn insphere(&self, five: [VertexId; 5]) -> Sign {
         let wobble = self.wobble(&five);
         let [a, b, c, d, e] = five;
         let p = [self.at(a), self.at(b), self.at(c), self.at(d), self.at(e)];
-        if self.shortcut
-            && let Some(sign) = filter::insphere(p, wobble)
-        {
-            return sign;
+        if !self.shortcut {
+            return self.insphere_slowly(five, wobble);
         }
-        self.insphere_slowly(five, wobble)
+        let filtered = if wobble == 0.0 {
+            let determinant = filter::insphere_of_doubles(p);
+            let certain = determinant.sign(17);
+            certain.or_else(|| determinant.sign_below(self.exactness.insphere))
+        } else {
+            filter::insphere(p, wobble)
+        };
+        filtered.unwrap_or_else(|| self.insphere_slowly(five, wobble))
     }
 
     #[cold]
     fn insphere_slowly(&self, five: [VertexId; 5], wobble: f64) -> Sign {
+        if let Some(cells) = self.cells(five) {
+            return self.counted(words::insphere(cells));
+        }
         let filtered = match wobble == 0.0 {
             true if self.shortcut => filter::insphere_by_terms(five.map(|v| self.at(v))),
             true => None,
@@ -220,7 +331,7 @@ impl Points {
                 formula::insphere(p.each_ref()).sign()
             }
         };
-        filtered.unwrap_or_else(|| fixed::sign(self, &five, &Insphere))
+        filtered.unwrap_or_else(|| self.in_fixed(&five, &Insphere))
     }
 
     /// Whether v is exactly on the plane abc.
@@ -260,7 +371,31 @@ impl Points {
         } else {
             None
         };
-        filtered.unwrap_or_else(|| fixed::sign(self, &ids, &Side))
+        filtered.unwrap_or_else(|| self.in_fixed(&ids, &Side))
+    }
+
+    /// The centroid of points (four at most), rounded, and how far off that may be along each axis.
+    pub(super) fn centroid(&self, q: &[VertexId]) -> ([f64; 3], f64) {
+        let share = q.len() as f64;
+        let at = [0, 1, 2].map(|i| q.iter().map(|&v| self.at(v)[i] / share).sum::<f64>());
+        // At most six roundings of relative size 2⁻⁵³ on the way to the centre of up to four points.
+        let coordinates = q.iter().flat_map(|&v| self.at(v));
+        let largest = coordinates.fold(0.0f64, |m, x| m.max(x.abs()));
+        let slack = 16.0 * f64::EPSILON * largest + f64::MIN_POSITIVE + self.wobble(q);
+        (at, slack)
+    }
+
+    /// [`Points::side`], where the centroid of the points is `centre` up to `slack`.
+    pub(super) fn side_of(
+        &self,
+        t: [VertexId; 3],
+        q: &[VertexId],
+        (centre, slack): ([f64; 3], f64),
+    ) -> Sign {
+        let [a, b, c] = t.map(|v| self.at(v));
+        let quickly = filter::orient([a, b, c, centre], slack + self.wobble(&t));
+        let quickly = quickly.filter(|_| self.shortcut);
+        quickly.unwrap_or_else(|| self.side(t, q))
     }
 
     /// Whether the closed positive tetrahedron contains the centroid of the points q (four at most), which is `centre` up
@@ -283,99 +418,6 @@ impl Points {
         inward
             .iter()
             .all(|face| !self.side(face.map(|k| t[k]), q).is_negative())
-    }
-
-    /// Twice the signed area of abc in the plane of the two axes, exactly.
-    pub(super) fn area(&self, axes: [usize; 2], [a, b, c]: [VertexId; 3]) -> Dyadic {
-        let [a, b, c] = [a, b, c].map(|v| {
-            let p = self.exact(v);
-            axes.map(|i| p.0[i].clone())
-        });
-        let d = |p: &[Dyadic; 2], i: usize| p[i].clone() - &a[i];
-        d(&b, 0) * &d(&c, 1) - &(d(&b, 1) * &d(&c, 0))
-    }
-
-    /// The sign of [`Points::area`].
-    pub(super) fn orient2d(&self, axes: [usize; 2], [a, b, c]: [VertexId; 3]) -> Sign {
-        self.side2d(axes, [a, b], &[c])
-    }
-
-    /// The side of the line ab on which the centroid of the points q lies.
-    pub(super) fn side2d(&self, axes: [usize; 2], [a, b]: [VertexId; 2], q: &[VertexId]) -> Sign {
-        let at = |v: VertexId| {
-            let p = self.at(v);
-            axes.map(|i| p[i])
-        };
-        let wobble = self.wobble(&[a, b]).max(self.wobble(q));
-        let filtered = filter::side2d([at(a), at(b)], q.iter().map(|&v| at(v)), wobble);
-        filtered.filter(|_| self.shortcut).unwrap_or_else(|| {
-            let mut ids = ArrayVec::<VertexId, { fixed::MOST_POINTS }>::from_iter([a, b]);
-            ids.extend(q.iter().copied().filter(|v| ![a, b].contains(v)));
-            match ids.len() {
-                2 => Sign::Zero,
-                _ => fixed::sign(self, &ids, &Side2d { axes }),
-            }
-        })
-    }
-
-    /// The sign of the area between a point and edges, if certain.
-    pub(super) fn quick_area(
-        &self,
-        axes: [usize; 2],
-        origin: VertexId,
-        edges: impl Iterator<Item = [VertexId; 2]>,
-    ) -> Option<Sign> {
-        if !self.shortcut {
-            return None;
-        }
-        let o = self.at(origin);
-        let mut sum = Permanent::default();
-        let mut n = 4;
-        for edge in edges {
-            if self.wobble(&edge) != 0.0 || self.wobble(&[origin]) != 0.0 {
-                return None;
-            }
-            let [p, q] = edge.map(|v| minus(self.at(v), o));
-            let (left, right) = (p[axes[0]] * q[axes[1]], p[axes[1]] * q[axes[0]]);
-            sum = sum.plus(Permanent {
-                value: left - right,
-                terms: left.abs() + right.abs(),
-            });
-            n += 1;
-        }
-        sum.sign(n)
-    }
-
-    /// The side of the line ab of a point that is known up to `slack`, if certain; all in the plane of two axes.
-    pub(super) fn quick_side2d(
-        &self,
-        line: [[f64; 2]; 2],
-        point: [f64; 2],
-        slack: f64,
-    ) -> Option<Sign> {
-        let sign = filter::side2d(line, std::iter::once(point), slack);
-        sign.filter(|_| self.shortcut)
-    }
-
-    /// How a coordinate of the centroid of the points q (seven at most) compares with that of v.
-    pub(super) fn compare(&self, axis: usize, q: &[VertexId], v: VertexId) -> Sign {
-        let wobble = self.wobble(&[v]).max(self.wobble(q));
-        let others = q.iter().map(|&w| self.at(w)[axis]);
-        let filtered = filter::compare(self.at(v)[axis], others, wobble);
-        filtered.filter(|_| self.shortcut).unwrap_or_else(|| {
-            let mut ids = ArrayVec::<VertexId, { fixed::MOST_POINTS }>::from_iter([v]);
-            ids.extend(q.iter().copied().filter(|w| *w != v));
-            fixed::sign(self, &ids, &Compare { axis })
-        })
-    }
-
-    /// The order of two points by a coordinate.
-    pub(super) fn order(&self, axis: usize, v: VertexId, w: VertexId) -> Ordering {
-        match self.compare(axis, &[v], w) {
-            Sign::Negative => Ordering::Less,
-            Sign::Zero => Ordering::Equal,
-            Sign::Positive => Ordering::Greater,
-        }
     }
 }
 

@@ -10,9 +10,12 @@ pub(super) fn check(case: &Case, constrained: &[bool], findings: &mut Findings) 
         return;
     }
     for (f, face) in case.tables.faces.iter().enumerate() {
-        let tets = face.sides.map(|side| side.0 as usize);
+        let Some(sides) = face.both().filter(|_| !constrained[f]) else {
+            continue;
+        };
+        let tets = sides.map(|side| side.tet());
         let found = tets.map(|t| attributes[t]);
-        if face.tets == 2 && !constrained[f] && found[0] != found[1] {
+        if found[0] != found[1] {
             findings.report(Violation::RegionLeaks {
                 tets,
                 attributes: found,

@@ -8,12 +8,12 @@
 //! been merged away (unless it is listed as a segment); a segment with an end that is not in the domain, or that leaves
 //! the domain from both of its ends, is outside of the part that was kept; everything else is missing.
 
+use super::listed::Listed;
 use super::planar::Area;
 use super::points::{cross, dot, minus};
 use super::tables::sorted2;
 use super::{Case, Findings, Violation};
 use crate::mesh::VertexId;
-use rustc_hash::FxHashSet;
 use std::cmp::Ordering;
 
 /// What became of a segment.
@@ -42,24 +42,22 @@ impl Fate {
 }
 
 /// The fate of each of the input's edges.
-pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
+pub(super) fn check(case: &Case, listed: &Listed, findings: &mut Findings) -> Vec<Fate> {
     let input = &case.input;
     let mut fates = Vec::with_capacity(input.edges.len());
-    let listed: FxHashSet<[VertexId; 2]> = case
-        .mesh
-        .edges
-        .iter()
-        .map(|e| sorted2(e.vertices))
-        .collect();
     for (e, edge) in input.edges.iter().enumerate() {
         // Rounded Steiner points permit several chains: that of listed edges, if there is one, is meant.
-        let is_listed = |e: [VertexId; 2]| listed.contains(&sorted2(e));
-        let chain =
-            chain(case, edge.ends, &is_listed).or_else(|| chain(case, edge.ends, &|_| true));
+        let chain = chain(case, edge.ends, &|v| listed.neighbours(v).to_vec(), &|e| {
+            listed.has(e)
+        })
+        .or_else(|| {
+            let has_edge = |e| listed.surface.has_edge(sorted2(e)) || case.tables.has_edge(e);
+            chain(case, edge.ends, &|v| case.tables.neighbours(v), &has_edge)
+        });
         let unlisted = case.options.merge_angle.is_some()
             && chain
                 .as_ref()
-                .is_some_and(|c| is_unlisted(&listed, c, edge.ends));
+                .is_some_and(|c| is_unlisted(listed, c, edge.ends));
         let fate = if let Some(chain) = chain.filter(|_| !unlisted || !is_mergeable(case, e)) {
             chain
         } else if is_mergeable(case, e) {
@@ -96,8 +94,8 @@ pub(super) fn check(case: &Case, findings: &mut Findings) -> Vec<Fate> {
 }
 
 /// Whether the mesh lists edges, but not those of the chain.
-fn is_unlisted(listed: &FxHashSet<[VertexId; 2]>, chain: &Fate, ends: [VertexId; 2]) -> bool {
-    !listed.is_empty() && !chain.edges(ends).iter().any(|e| listed.contains(e))
+fn is_unlisted(listed: &Listed, chain: &Fate, ends: [VertexId; 2]) -> bool {
+    listed.has_edges() && !chain.edges(ends).iter().any(|&e| listed.has(e))
 }
 
 /// Reports an input edge as missing.
@@ -109,13 +107,14 @@ pub(super) fn report(case: &Case, e: usize, findings: &mut Findings) {
     });
 }
 
-/// A chain of edges that `may_use` permits, [`Fate::Edge`] or [`Fate::Chain`].
+/// A chain of some edges of the mesh, [`Fate::Edge`] or [`Fate::Chain`]. `neighbours` are the other ends of those at a vertex.
 fn chain(
     case: &Case,
     [a, b]: [VertexId; 2],
-    may_use: &dyn Fn([VertexId; 2]) -> bool,
+    neighbours: &dyn Fn(VertexId) -> Vec<VertexId>,
+    has_edge: &dyn Fn([VertexId; 2]) -> bool,
 ) -> Option<Fate> {
-    if may_use([a, b]) && case.tables.has_edge([a, b]) {
+    if has_edge([a, b]) {
         return Some(Fate::Edge);
     }
     if !case.tables.is_used(a) || !case.tables.is_used(b) {
@@ -137,14 +136,12 @@ fn chain(
         if v == b {
             return Some(Fate::Chain(path));
         }
-        let step = case
-            .tables
-            .neighbours(v)
+        let step = neighbours(v)
             .into_iter()
-            .filter(|&w| may_use([v, w]) && order(v, w).is_lt())
+            .filter(|&w| order(v, w).is_lt())
             .filter(|&w| w == b || order(w, b).is_lt())
             .filter(|w| !tried.contains(w) && (*w == b || is_on(case, [a, b], *w)))
-            .min_by(|&w, &x| order(w, x));
+            .min_by(|&w, &x| order(w, x).then(w.cmp(&x)));
         match step {
             Some(w) => {
                 tried.push(w);

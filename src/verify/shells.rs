@@ -7,13 +7,13 @@
 //!
 //! With normals into the empty space, the signed volume inside a shell is negative iff the empty space is bounded and the
 //! shell is its outer boundary. (Positive shells surround solids; sheets have volume zero.) So the negative shells are
-//! the voids, one by one. O(n log n); exact numbers are needed only where more than two walls meet.
+//! the voids, one by one. O(n); exact numbers are needed only where more than two walls meet.
 
 use super::Case;
 use super::facets::OutsidePart;
-use super::planar::crossing;
+use super::probe::crossing;
 use super::sums::Cones;
-use super::tables::sorted2;
+use super::tables::{sort_by_edge, sorted2};
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Sign, Vec3};
 use std::cmp::Ordering;
@@ -42,7 +42,7 @@ impl Walls {
             edges: Vec::new(),
         };
         for (f, face) in case.tables.boundary() {
-            let [a, b, c] = case.tables.inward(face.sides[0]);
+            let [a, b, c] = case.tables.inward(face.first());
             walls.push(&[[a, c], [c, b], [b, a]], [a, c, b], Some(f));
         }
         for part in outside {
@@ -92,17 +92,15 @@ impl Shells {
         let walls = &all.walls;
         let mut leader: Vec<Side> = (0..2 * walls.len()).collect();
         let mut contradictions = Vec::new();
-        let mut incidences = incidences(&all);
-        for around in incidences.chunk_by_mut(|x, y| x.edge == y.edge) {
-            let edge = around[0].edge;
+        let incidences = incidences(&all, case.points.len());
+        let mut order = Vec::new();
+        for around in incidences.chunk_by(|x, y| x.0 == y.0) {
+            let edge = around[0].0;
+            order.clear();
+            order.extend(around.iter().map(|i| i.1));
+            let around = &mut order[..];
             sort_around(case, edge, walls, around);
-            for (
-                i,
-                &Incidence {
-                    wall: w, forward, ..
-                },
-            ) in around.iter().enumerate()
-            {
+            for (i, &Incidence { wall: w, forward }) in around.iter().enumerate() {
                 // Counterclockwise around the edge means along the normal of a wall that has the edge forwards.
                 let next = &around[(i + 1) % around.len()];
                 let sides = [
@@ -150,10 +148,12 @@ impl Shell {
     }
 }
 
+#[inline]
 fn is_empty(walls: &[Wall], side: Side) -> bool {
     side.is_multiple_of(2) || walls[side / 2].face.is_none()
 }
 
+#[inline]
 fn find(leader: &mut [Side], mut side: Side) -> Side {
     while leader[side] != side {
         leader[side] = leader[leader[side]];
@@ -170,25 +170,24 @@ fn join(leader: &mut [Side], sides: [Side; 2]) {
 /// A wall at an edge.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Incidence {
-    /// Smaller end first.
-    edge: [VertexId; 2],
     wall: u32,
     /// Whether the wall has the edge from the smaller to the larger end.
     forward: bool,
 }
 
-/// All walls at all edges, by edges.
-fn incidences(walls: &Walls) -> Vec<Incidence> {
+/// All walls at all edges, smaller end first, by edges, at each edge in the order of walls.
+fn incidences(walls: &Walls, points: usize) -> Vec<([VertexId; 2], Incidence)> {
     let mut incidences = Vec::with_capacity(walls.edges.len());
     for (w, wall) in walls.walls.iter().enumerate() {
-        incidences.extend(walls.edges(wall).iter().map(|&edge| Incidence {
-            edge: sorted2(edge),
-            wall: w as u32,
-            forward: edge[0] < edge[1],
+        incidences.extend(walls.edges(wall).iter().map(|&edge| {
+            let incidence = Incidence {
+                wall: w as u32,
+                forward: edge[0] < edge[1],
+            };
+            (sorted2(edge), incidence)
         }));
     }
-    // Stable: a wall that has an edge from both sides keeps its order.
-    incidences.sort_by_key(|i| (i.edge, i.wall));
+    sort_by_edge(&mut incidences, points);
     incidences
 }
 
@@ -200,7 +199,7 @@ fn sort_around(case: &Case, edge: [VertexId; 2], walls: &[Wall], around: &mut [I
     let [a, b] = edge.map(|v| case.points.exact(v));
     let axis = b.sub(&a);
     // n × (direction of the edge in the wall) points into the wall.
-    let inward = |&Incidence { wall, forward, .. }: &Incidence| {
+    let inward = |&Incidence { wall, forward }: &Incidence| {
         let [p, q, r] = walls[wall as usize].frame.map(|v| case.points.exact(v));
         let normal = q.sub(&p).cross(&r.sub(&p));
         if forward {

@@ -43,10 +43,13 @@ pub(super) fn check(plc: &Plc, mesh: &ExportedMesh, findings: &mut Findings) {
         }
     };
     let (n, m) = (mesh.vertices.len(), plc.vertices.len());
-    mesh.tets
-        .iter()
-        .enumerate()
-        .for_each(|(i, t)| range("tetrahedron", i, t, n));
+    // One pass without branches, as a rule.
+    let greatest = mesh.tets.iter().flatten().fold(0, |m, v| m.max(v.0));
+    if greatest as usize >= n {
+        for (i, t) in mesh.tets.iter().enumerate() {
+            range("tetrahedron", i, t, n);
+        }
+    }
     mesh.faces
         .iter()
         .enumerate()
@@ -69,12 +72,13 @@ pub(super) fn check(plc: &Plc, mesh: &ExportedMesh, findings: &mut Findings) {
     if !findings.is_empty() {
         return;
     }
-    for (tet, t) in mesh.tets.iter().enumerate() {
-        if let Some(&id) = (1..4)
-            .flat_map(|i| (0..i).map(move |j| (i, j)))
-            .find(|&(i, j)| t[i] == t[j])
-            .map(|(i, _)| &t[i])
-        {
+    for (tet, &[a, b, c, d]) in mesh.tets.iter().enumerate() {
+        if (a == b) | (a == c) | (a == d) | (b == c) | (b == d) | (c == d) {
+            let id = match () {
+                () if (a == b) | (a == c) | (a == d) => a,
+                () if (b == c) | (b == d) => b,
+                () => c,
+            };
             let vertex = Place {
                 id,
                 at: mesh.vertices[id.index()],

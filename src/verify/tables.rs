@@ -1,49 +1,51 @@
 //! The tetrahedra with their faces and edges looked up by vertices: sorted arrays, nothing that the mesh itself claims.
 
+use super::delaunay::{Spheres, side_of_sphere};
+use super::gather::{Corner, FEW, Face, Gatherer, Ordered, Use, with_corners};
+use super::points::Points;
+use crate::machine::prefetch;
 use crate::mesh::VertexId;
+use crate::number::Sign;
+use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
 
 /// The face opposite each corner, ordered such that the corner is on its positive side (the normal points inwards).
 pub(super) const INWARD: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
 
-/// A face and the tetrahedra that have it.
-pub(super) struct Face {
-    /// The vertices, sorted.
-    pub(super) key: [VertexId; 3],
-    /// (tetrahedron, opposite corner) of the first two tetrahedra; the second is there only if `tets` > 1.
-    pub(super) sides: [(u32, u8); 2],
-    /// How many tetrahedra have the face.
-    pub(super) tets: u32,
-}
-
 /// The incidence tables.
-pub(super) struct Tables {
+pub(super) struct Tables<'a> {
     /// The tetrahedra, positive ones (as far as they are consistent at all).
-    pub(super) tets: Vec<[VertexId; 4]>,
-    /// The faces, sorted by key.
+    pub(super) tets: Cow<'a, [[VertexId; 4]]>,
+    /// The faces, by their smallest vertices: all, or those that may be asked for ([`Tables::new`]).
     pub(super) faces: Vec<Face>,
-    /// The faces whose smallest vertex is v: `faces[face_start[v]..face_start[v + 1]]`.
+    /// How many faces there are in all.
+    pub(super) total: usize,
+    /// Which faces are not, or hardly, locally Delaunay.
+    pub(super) spheres: Spheres,
+    /// Whether every tetrahedron is positive.
+    pub(super) is_positive: bool,
+    /// The faces with one tetrahedron.
+    boundary: Vec<u32>,
+    /// The faces with more than two tetrahedra.
+    pub(super) crowded: Vec<usize>,
+    /// The faces both of whose tetrahedra are on one side, in increasing order.
+    pub(super) same_side: Vec<usize>,
+    /// The faces whose smallest vertex is v: `faces[face_start[v]..face_start[v + 1]]`; sorted if there are more than [`FEW`].
     face_start: Vec<u32>,
-    /// How many tetrahedra each vertex has.
-    valence: Vec<u32>,
+    /// Whether a vertex is in a tetrahedron.
+    used: Vec<bool>,
     /// The tetrahedra at each vertex; many meshes are verified without.
     stars: OnceCell<Stars>,
 }
+
+/// How far ahead of its use memory is asked for.
+const AHEAD: usize = 16;
 
 /// `star[start[v]..start[v + 1]]`.
 struct Stars {
     start: Vec<u32>,
     star: Vec<u32>,
-}
-
-/// A tetrahedron's use of a face, of which the smallest vertex is known.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Use {
-    /// The second and third vertex.
-    others: u64,
-    tet: u32,
-    corner: u8,
 }
 
 /// The two, smaller first.
@@ -58,67 +60,106 @@ fn sorted3([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
     [a.min(b), a.max(b), c]
 }
 
-impl Tables {
-    /// `vertices` is the number of points that tetrahedra may name.
-    pub(super) fn new(tets: Vec<[VertexId; 4]>, vertices: usize) -> Tables {
-        // Of the four faces, the three at the smallest vertex are gathered there, and one at the second.
-        let ordered = || tets.iter().map(with_corners);
-        let mut start = vec![0u32; vertices + 1];
-        let mut valence = vec![0u32; vertices];
-        for tet in ordered() {
-            start[tet[0].0.index() + 1] += 3;
-            start[tet[1].0.index() + 1] += 1;
-            tet.iter().for_each(|(v, _)| valence[v.index()] += 1);
-        }
-        for i in 0..vertices {
-            start[i + 1] += start[i];
-        }
-        let blank = Use {
-            others: 0,
-            tet: 0,
-            corner: 0,
-        };
-        let mut uses = vec![blank; 4 * tets.len()];
-        let mut next = start.clone();
-        for (t, [a, b, c, d]) in ordered().enumerate() {
-            for ([x, y, z], apex) in [
-                ([a, b, c], d),
-                ([a, b, d], c),
-                ([a, c, d], b),
-                ([b, c, d], a),
-            ] {
-                let place = &mut next[x.0.index()];
-                uses[*place as usize] = Use {
-                    others: u64::from(y.0.0) << 32 | u64::from(z.0.0),
-                    tet: t as u32,
-                    corner: apex.1,
-                };
-                *place += 1;
-            }
-        }
-        let mut faces = Vec::with_capacity(2 * tets.len() + tets.len() / 4);
-        let mut face_start = Vec::with_capacity(vertices + 1);
-        for v in 0..vertices {
-            face_start.push(faces.len() as u32);
-            let uses = &mut uses[start[v] as usize..start[v + 1] as usize];
-            uses.sort_unstable();
-            faces.extend(uses.chunk_by(|x, y| x.others == y.others).map(|group| {
-                let second = &group[group.len().min(2) - 1];
-                let (b, c) = ((group[0].others >> 32) as u32, group[0].others as u32);
-                Face {
-                    key: [VertexId::new(v), VertexId(b), VertexId(c)],
-                    sides: [&group[0], second].map(|u| (u.tet, u.corner)),
-                    tets: group.len() as u32,
-                }
-            }));
-        }
-        face_start.push(faces.len() as u32);
-        Tables {
-            tets,
-            faces,
-            face_start,
-            valence,
+impl<'a> Tables<'a> {
+    /// `used` says which points are in a tetrahedron. If `asked` is given, only some faces are kept: those all of whose vertices
+    /// it holds, those with other than two tetrahedra on opposite sides, and those that are not locally Delaunay.
+    pub(super) fn new(
+        points: &Points,
+        tets: Cow<'a, [[VertexId; 4]]>,
+        used: Vec<bool>,
+        asked: Option<Vec<bool>>,
+    ) -> Tables<'a> {
+        assert!(tets.len() < 1 << 29, "fewer than 2^29 tetrahedra");
+        // A face is looked for at its smallest vertex: that is the smallest of a tetrahedron for three of its faces, and the
+        // second smallest for one.
+        let [first, second] = Ordered::by_two_least(&tets, used.len());
+        let mut tables = Tables {
+            faces: match asked {
+                None => Vec::with_capacity(2 * tets.len() + tets.len() / 4),
+                Some(_) => Vec::new(),
+            },
+            total: 0,
+            spheres: Spheres::default(),
+            is_positive: true,
+            boundary: Vec::new(),
+            crowded: Vec::new(),
+            same_side: Vec::new(),
+            face_start: Vec::with_capacity(used.len() + 1),
             stars: OnceCell::new(),
+            tets,
+            used,
+        };
+        let mut gatherer = Gatherer::new(tables.used.len());
+        let mut uses = Vec::new();
+        for v in 0..tables.used.len() {
+            tables.face_start.push(tables.faces.len() as u32);
+            uses.clear();
+            let tets = &tables.tets;
+            for i in first.range(v) {
+                let t = first.order[i];
+                let ([a, b, c, d], odd) = with_corners(&tets[t as usize]);
+                for v in [b, c, d] {
+                    points.prefetch(v.0);
+                    gatherer.prefetch(v.0);
+                }
+                uses.push(Use::new(t, [b.0, c.0], d, odd));
+                uses.push(Use::new(t, [b.0, d.0], c, !odd));
+                uses.push(Use::new(t, [c.0, d.0], b, odd));
+                debug_assert_eq!(a.0.index(), v);
+            }
+            for i in second.range(v) {
+                if let Some(&ahead) = second.order.get(i + AHEAD) {
+                    prefetch(tets, ahead as usize);
+                }
+                let t = second.order[i];
+                let ([a, _, c, d], odd) = with_corners(&tets[t as usize]);
+                points.prefetch(a.0);
+                gatherer.prefetch(c.0);
+                uses.push(Use::new(t, [c.0, d.0], a, !odd));
+            }
+            for &t in &first.order[first.range(v)] {
+                tables.is_positive &= points.orient(tets[t as usize]).is_positive();
+            }
+            gatherer.gather(VertexId(v as u32), &mut uses);
+            tables.take(points, &gatherer, asked.as_deref());
+        }
+        tables.face_start.push(tables.faces.len() as u32);
+        tables
+    }
+
+    /// Judges the faces of one vertex, and keeps them if they may be asked for.
+    fn take(&mut self, points: &Points, gathered: &Gatherer, asked: Option<&[bool]>) {
+        self.total += gathered.faces.len();
+        for (i, face) in gathered.faces.iter().enumerate() {
+            let f = self.faces.len();
+            let mut keep = asked.is_none_or(|asked| face.key.iter().all(|v| asked[v.index()]));
+            match face.both() {
+                None => {
+                    self.boundary.push(f as u32);
+                    keep = true;
+                }
+                Some([a, b]) if a.is_below() == b.is_below() => {
+                    self.same_side.push(f);
+                    keep = true;
+                }
+                Some(_) => {}
+            }
+            if gathered.crowded.contains(&i) {
+                self.crowded.push(f);
+                keep = true;
+            }
+            match side_of_sphere(points, face) {
+                Sign::Negative => {}
+                Sign::Zero if keep => self.spheres.cospherical.push(f),
+                Sign::Zero => self.spheres.cospherical_elsewhere += 1,
+                Sign::Positive => {
+                    self.spheres.violated.push(f);
+                    keep = true;
+                }
+            }
+            if keep {
+                self.faces.push(*face);
+            }
         }
     }
 
@@ -128,10 +169,12 @@ impl Tables {
             return &[];
         }
         let stars = self.stars.get_or_init(|| {
-            let mut start = Vec::with_capacity(self.valence.len() + 1);
-            start.push(0);
-            for valence in &self.valence {
-                start.push(start[start.len() - 1] + valence);
+            let mut start = vec![0u32; self.used.len() + 1];
+            for v in self.tets.iter().flatten() {
+                start[v.index() + 1] += 1;
+            }
+            for i in 1..start.len() {
+                start[i] += start[i - 1];
             }
             let mut next = start.clone();
             let mut star = vec![0; 4 * self.tets.len()];
@@ -157,13 +200,12 @@ impl Tables {
 
     /// Whether any tetrahedron has the vertex.
     pub(super) fn is_used(&self, v: VertexId) -> bool {
-        self.valence.get(v.index()).is_some_and(|&n| n > 0)
+        self.used.get(v.index()).copied().unwrap_or(false)
     }
 
     /// The tetrahedra around an edge.
     fn around(&self, [a, b]: [VertexId; 2]) -> impl Iterator<Item = u32> + '_ {
-        let valence = |v: VertexId| self.valence.get(v.index()).copied();
-        let (hub, other) = if valence(a) <= valence(b) {
+        let (hub, other) = if self.star(a).len() <= self.star(b).len() {
             (a, b)
         } else {
             (b, a)
@@ -212,37 +254,58 @@ impl Tables {
         let key = sorted3(face);
         let range = self.faces_from(key[0]);
         let faces = &self.faces[range.clone()];
-        let found = faces.binary_search_by(|f| f.key[1..].cmp(&key[1..])).ok()?;
+        let found = match faces.len() > FEW {
+            true => faces.binary_search_by(|f| f.key.cmp(&key)).ok()?,
+            false => faces
+                .iter()
+                .position(|f| f.key[1] == key[1] && f.key[2] == key[2])?,
+        };
         Some(range.start + found)
     }
 
     /// A side of a face, ordered such that its tetrahedron is on the positive side of the plane.
-    pub(super) fn inward(&self, (t, corner): (u32, u8)) -> [VertexId; 3] {
-        let tet = self.tets[t as usize];
-        INWARD[usize::from(corner)].map(|k| tet[k])
-    }
-
-    /// The vertex of the tetrahedron that is opposite the face.
-    pub(super) fn apex(&self, (t, corner): (u32, u8)) -> VertexId {
-        self.tets[t as usize][usize::from(corner)]
+    #[inline]
+    pub(super) fn inward(&self, corner: Corner) -> [VertexId; 3] {
+        let tet = self.tets[corner.tet()];
+        INWARD[corner.corner()].map(|k| tet[k])
     }
 
     /// The faces with one tetrahedron.
-    pub(super) fn boundary(&self) -> impl Iterator<Item = (usize, &Face)> {
-        self.faces.iter().enumerate().filter(|(_, f)| f.tets == 1)
+    pub(super) fn boundary(&self) -> impl ExactSizeIterator<Item = (usize, &Face)> {
+        let faces = self.boundary.iter().map(|&f| f as usize);
+        faces.map(|f| (f, &self.faces[f]))
+    }
+
+    /// How many tetrahedra have a face.
+    pub(super) fn tets_at(&self, f: usize) -> Vec<usize> {
+        let key = self.faces[f].key;
+        let star = self.star(key[0]).iter().map(|&t| t as usize);
+        star.filter(|&t| key.iter().all(|v| self.tets[t].contains(v)))
+            .collect()
     }
 }
 
-/// The vertices of a tetrahedron in increasing order, with their corners.
-#[inline]
-fn with_corners(tet: &[VertexId; 4]) -> [(VertexId, u8); 4] {
-    let mut sorted = [(tet[0], 0), (tet[1], 1), (tet[2], 2), (tet[3], 3)];
-    for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
-        if sorted[j].0 < sorted[i].0 {
-            sorted.swap(i, j);
-        }
+/// Sorts by edges, whose ends are below `vertices`; what is at one edge keeps its order.
+pub(super) fn sort_by_edge<T: Copy>(items: &mut Vec<([VertexId; 2], T)>, vertices: usize) {
+    let mut start = vec![0u32; vertices + 1];
+    for (edge, _) in items.iter() {
+        start[edge[0].index() + 1] += 1;
     }
-    sorted
+    for i in 1..start.len() {
+        start[i] += start[i - 1];
+    }
+    let mut next = start.clone();
+    let mut sorted = items.clone();
+    for item in items.iter() {
+        let place = &mut next[item.0[0].index()];
+        sorted[*place as usize] = *item;
+        *place += 1;
+    }
+    for range in start.windows(2) {
+        let at_vertex = &mut sorted[range[0] as usize..range[1] as usize];
+        at_vertex.sort_by_key(|(edge, _)| edge[1]);
+    }
+    *items = sorted;
 }
 
 #[cfg(test)]
@@ -264,7 +327,26 @@ mod tests {
     #[test]
     fn two_tetrahedra() {
         let v = |i| VertexId(i);
-        let tables = Tables::new(vec![[v(0), v(1), v(2), v(3)], [v(2), v(1), v(0), v(4)]], 6);
+        let at = |x: f64, y: f64, z: f64| [x, y, z];
+        let points = Points::new(vec![
+            at(0., 0., 0.),
+            at(1., 0., 0.),
+            at(0., 1., 0.),
+            at(0., 0., 1.),
+            at(0., 0., -1.),
+            at(9., 9., 9.),
+        ]);
+        let tets = vec![[v(0), v(1), v(2), v(3)], [v(2), v(1), v(0), v(4)]];
+        let used = vec![true, true, true, true, true, false];
+        let some = Tables::new(
+            &points,
+            (&tets[..]).into(),
+            used.clone(),
+            Some(vec![false; 6]),
+        );
+        assert_eq!((some.faces.len(), some.total), (6, 7));
+        assert!(some.is_positive && some.same_side.is_empty() && some.crowded.is_empty());
+        let tables = Tables::new(&points, tets.into(), used, None);
         assert_eq!(tables.faces.len(), 7);
         assert_eq!(tables.boundary().count(), 6);
         assert_eq!(tables.neighbours(v(3)), [v(0), v(1), v(2)]);

@@ -84,6 +84,9 @@ pub struct Counts {
     pub domain: Domain,
     /// The sum of the volumes of the tetrahedra.
     pub volume: f64,
+    /// Signs of determinants that doubles did not decide, so that integers had to. (Sums of areas and volumes, and distances
+    /// that are compared with the tolerance, are always exact and not counted.)
+    pub exact_signs: usize,
 }
 
 /// The outcome of [`super::verify`].
@@ -175,6 +178,7 @@ impl fmt::Display for Verdict {
 }
 
 /// Violations and counts as the checks collect them.
+#[derive(Clone)]
 pub(super) struct Findings {
     pub(super) counts: Counts,
     pub(super) violations: Vec<Violation>,

@@ -3,26 +3,22 @@
 //! An input vertex that no tetrahedron uses is accepted only if it lies in no tetrahedron, boundary included: it is then
 //! outside the part that was kept. (Where the convex hull is kept, [`super::hull`] reports it nevertheless.)
 
-use super::input::place_key;
 use super::{Case, Findings, Violation};
 use crate::mesh::VertexId;
 use rustc_hash::FxHashMap;
 
 pub(super) fn check(case: &Case, findings: &mut Findings) {
-    let mut first: FxHashMap<[u64; 3], VertexId> = FxHashMap::default();
     for v in (0..case.mesh.vertices.len()).map(VertexId::new) {
-        if !case.tables.is_used(v) {
-            continue;
+        if case.tables.is_used(v) {
+            findings.counts.vertices += 1;
+            findings.counts.steiner_vertices += usize::from(!case.input.is_site(v));
         }
-        findings.counts.vertices += 1;
-        findings.counts.steiner_vertices += usize::from(!case.input.is_site(v));
-        let w = *first.entry(place_key(case.points.at(v))).or_insert(v);
-        if w != v && case.points.coincide(v, w) {
-            findings.report(Violation::CoincidentVertices {
-                first: case.place(w),
-                second: case.place(v),
-            });
-        }
+    }
+    for [first, second] in coincident(case) {
+        findings.report(Violation::CoincidentVertices {
+            first: case.place(first),
+            second: case.place(second),
+        });
     }
     let mut seen = vec![false; case.input.is_site.len()];
     for (i, &site) in case.input.site_of.iter().enumerate() {
@@ -42,4 +38,25 @@ pub(super) fn check(case: &Case, findings: &mut Findings) {
             findings.counts.input_vertices_outside += 1;
         }
     }
+}
+
+/// Different used vertices at one place.
+fn coincident(case: &Case) -> Vec<[VertexId; 2]> {
+    let mut all = case.input.coincident.clone();
+    let coordinates = &case.mesh.vertices;
+    // The others, by their coordinates rounded.
+    let mut near: FxHashMap<[u64; 3], Vec<VertexId>> = FxHashMap::default();
+    for v in case.points.elsewhere() {
+        if !case.tables.is_used(v) {
+            continue;
+        }
+        let at = coordinates[v.index()];
+        let others = near.entry(at.map(|x| (x + 0.0).to_bits())).or_default();
+        let double = case.input.places.at(case.points.coordinates(), at);
+        let mut earlier = others.iter().copied().chain(double);
+        let same = earlier.find(|&w| case.tables.is_used(w) && case.points.coincide(v, w));
+        all.extend(same.map(|w| [w.min(v), w.max(v)]));
+        others.push(v);
+    }
+    all
 }
