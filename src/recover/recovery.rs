@@ -7,9 +7,10 @@
 use super::reach::{Reaches, Span};
 use super::scout::{Crossing, Scouted, scout};
 use super::scratch::Stamps;
+use super::segment_index::key;
 use super::segments::Request;
 use super::split::{self, Reference, Subsegment, split_parameter};
-use super::subsegments::{Subsegments, key};
+use super::subsegments::Subsegments;
 use super::turn::inner_edges;
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp};
