@@ -25,6 +25,7 @@ pub mod region;
 pub mod rounding;
 pub mod scout;
 pub mod scratch;
+mod segment_index;
 pub mod segments;
 pub mod side;
 mod sight;

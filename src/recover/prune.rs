@@ -114,7 +114,7 @@ impl Recovered {
 }
 
 /// Among how many neighbours those that obstruct an edge are looked for first.
-const FEW: usize = 16;
+const FEW: usize = 8;
 
 /// The tetrahedra at a vertex and its neighbours, as far as they are known. Memory is used again.
 #[derive(Default)]

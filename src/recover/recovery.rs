@@ -7,9 +7,10 @@
 use super::reach::{Reaches, Span};
 use super::scout::{Crossing, Scouted, scout};
 use super::scratch::Stamps;
+use super::segment_index::key;
 use super::segments::Request;
 use super::split::{self, Reference, Subsegment, split_parameter};
-use super::subsegments::{Subsegments, key};
+use super::subsegments::Subsegments;
 use super::turn::inner_edges;
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp};
@@ -56,6 +57,23 @@ pub(super) enum Placement {
     },
 }
 
+/// A subsegment to look at: the bits of its length, which are in the order of the lengths, and its ends, in one number, since
+/// a queue compares a lot.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Missing(u128);
+
+impl Missing {
+    fn new(length: f64, [a, b]: [VertexId; 2]) -> Missing {
+        Missing(u128::from(length.to_bits()) << 64 | u128::from(a.0) << 32 | u128::from(b.0))
+    }
+
+    /// The bits of its length, and its ends.
+    fn parts(self) -> (u64, [VertexId; 2]) {
+        let ends = [VertexId((self.0 >> 32) as u32), VertexId(self.0 as u32)];
+        ((self.0 >> 64) as u64, ends)
+    }
+}
+
 /// What is kept while segments are recovered.
 pub(super) struct SegmentRecovery<'a, P> {
     pub(super) points: &'a mut P,
@@ -63,8 +81,8 @@ pub(super) struct SegmentRecovery<'a, P> {
     pub(super) incidence: Incidence,
     pub(super) subsegments: Subsegments,
     pub(super) placement: Placement,
-    /// Subsegments to look at, by the bits of their length, which are in the order of the lengths.
-    missing: BinaryHeap<(u64, [VertexId; 2])>,
+    /// Subsegments to look at, the longest first.
+    missing: BinaryHeap<Missing>,
     /// Memory used again.
     pub(super) reaches: Reaches,
     pub(super) harmful: Vec<Span>,
@@ -121,7 +139,8 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
     pub(super) fn recover_missing(&mut self, levels: &mut Vec<Level>) -> Result<(), Failure> {
         let mut shortest = u64::MAX;
         let mut next = 0;
-        while let Some((length, [a, b])) = self.missing.pop() {
+        while let Some(missing) = self.missing.pop() {
+            let (length, [a, b]) = missing.parts();
             if length < shortest {
                 shortest = length;
                 let count = self.subsegments.steiner_count();
@@ -172,7 +191,7 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
     fn enqueue(&mut self, a: VertexId, b: VertexId) {
         let (p, q) = (self.points.rounded(a), self.points.rounded(b));
         let length = split::distance(p, q);
-        self.missing.push((length.to_bits(), key(a, b)));
+        self.missing.push(Missing::new(length, key(a, b)));
     }
 
     /// Looks for the edge ab; splits it if it is missing. A subsegment that is no longer one is passed over.

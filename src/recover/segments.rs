@@ -19,7 +19,8 @@
 
 use super::recovery::{Level, MOST_VERTICES_PER_SEGMENT, Placement, Recovered, SegmentRecovery};
 use super::scout::{Scouted, scout};
-pub use super::subsegments::{SegmentIndex, Subsegments};
+pub use super::segment_index::SegmentIndex;
+pub use super::subsegments::Subsegments;
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp};
 use crate::mesh::{Incidence, VertexId};

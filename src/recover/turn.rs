@@ -7,7 +7,7 @@
 use crate::mesh::{TetId, TetMesh, VertexId};
 
 /// The slots of the edges of a tetrahedron, each with the two others.
-const EDGES: [[usize; 4]; 6] = [
+static EDGES: [[usize; 4]; 6] = [
     [0, 1, 2, 3],
     [0, 2, 1, 3],
     [0, 3, 1, 2],
@@ -30,13 +30,17 @@ pub(super) fn inner_edges<S: Copy>(
 ) {
     for &t in set {
         let vertices = mesh.vertices(t);
-        let mut goes_on = [false; 4];
-        for (slot, goes_on) in goes_on.iter_mut().enumerate() {
+        // Bit by bit the facets behind which the set goes on.
+        let mut goes_on = 0;
+        for slot in 0..4 {
             let n = mesh.neighbor(t.corner(slot));
-            *goes_on = n > t && is_in(n);
+            goes_on |= u32::from(n > t && is_in(n)) << slot;
         }
-        for [i, j, k, l] in EDGES {
-            if !goes_on[k] || !goes_on[l] {
+        if goes_on.count_ones() < 2 {
+            continue;
+        }
+        for &[i, j, k, l] in &EDGES {
+            if goes_on >> k & goes_on >> l & 1 == 0 {
                 continue;
             }
             let edge = [vertices[i], vertices[j]];
