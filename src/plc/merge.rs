@@ -7,7 +7,7 @@
 //! because every join is on one exact plane, so is the whole group. Edges dropped are those across which two facets were
 //! joined, and no others: an explicit segment inside the merged polygon stays in both directions.
 //!
-//! O(k log k) for k edges, one orientation test for each edge between triangles.
+//! O(n + k) for k edges of polygons on n vertices with few edges each, one orientation test for each edge between triangles.
 
 use super::facet::{sorted, undirected};
 use super::frame;

@@ -4,7 +4,7 @@
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign};
 use crate::predicate::coordinates;
-pub(crate) use crate::predicate::coordinates::orient3d;
+pub(crate) use crate::predicate::coordinates::{collinear, orient3d};
 
 /// A point of the projection plane.
 pub(crate) type Point = [f64; 2];
@@ -51,14 +51,6 @@ impl Projected<'_> {
     pub fn orient(&self, [a, b, c]: [VertexId; 3]) -> Sign {
         orient2d(self.at(a), self.at(b), self.at(c))
     }
-}
-
-/// Whether three points of space are collinear.
-pub(crate) fn collinear(points: [[f64; 3]; 3]) -> bool {
-    [0, 1, 2].iter().all(|&axis| {
-        let [a, b, c] = points.map(|p| Projection { axis }.point(p));
-        orient2d(a, b, c).is_zero()
-    })
 }
 
 /// The sign of det[b−a, c−a]: positive iff abc turns counterclockwise.

@@ -66,6 +66,14 @@ fn orient2d_exact([a, b, c]: [[f64; 2]; 3]) -> Sign {
     }
 }
 
+/// Whether three points of space are on one line.
+pub(crate) fn collinear([a, b, c]: [[f64; 3]; 3]) -> bool {
+    [(1, 2), (2, 0), (0, 1)].iter().all(|&(i, j)| {
+        let on_plane = |p: [f64; 3]| [p[i], p[j]];
+        orient2d([on_plane(a), on_plane(b), on_plane(c)]).is_zero()
+    })
+}
+
 /// The sign of (b−a)·(c−a).
 #[inline]
 pub(crate) fn dot2d([a, b, c]: [[f64; 2]; 3]) -> Sign {
@@ -198,6 +206,7 @@ mod tests {
             let plane = [0, 1, 2].map(|i| [p[i][0], p[i][1]]);
             prop_assert_eq!(dot2d(plane), u.dot(&v).exact_sign());
             let [a, b, c, _] = p;
+            prop_assert_eq!(collinear([p[0], p[1], p[2]]), largest(&normal).1.is_zero());
             let expected = largest(&normal);
             prop_assert_eq!(normal_axis([a, b, c]), (!expected.1.is_zero()).then_some(expected));
         }

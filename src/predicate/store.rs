@@ -1,6 +1,6 @@
 //! Where the algorithms get their signs.
 
-use super::{Parameter, formula, perturbed_sign};
+use super::{Parameter, coordinates, formula, perturbed_sign};
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
 
@@ -88,12 +88,18 @@ pub trait PointStore {
 
     /// Whether two points coincide.
     fn coincide(&self, v: VertexId, w: VertexId) -> bool {
+        if let (Some(v), Some(w)) = (self.doubles(v), self.doubles(w)) {
+            return v == w;
+        }
         let (v, w) = (self.coordinates::<Dyadic>(v), self.coordinates::<Dyadic>(w));
         v.sub(&w).0.iter().all(|x| x.exact_sign().is_zero())
     }
 
     /// Whether a, b, c lie on one line.
     fn collinear(&self, v: [VertexId; 3]) -> bool {
+        if let [Some(a), Some(b), Some(c)] = v.map(|v| self.doubles(v)) {
+            return coordinates::collinear([a, b, c]);
+        }
         let [a, b, c] = v.map(|v| self.coordinates::<Dyadic>(v));
         let normal = b.sub(&a).cross(&c.sub(&a));
         normal.0.iter().all(|x| x.exact_sign().is_zero())

@@ -15,7 +15,8 @@
 //! lies is known only to rounding, the cut is a chain of edges of the mesh, and both constraints are unions of simplices of
 //! it, as if it had been declared. ([`crate::check`] refuses it if its own triangulation of the polygon has that diagonal.)
 //!
-//! All of it is combinatorial, hence exact. O(k log k) for k triangles on polygons.
+//! All of it is combinatorial, hence exact. Edges are grouped by their lesser ends: O(n + k) for k triangles on polygons, of
+//! n vertices with few edges each.
 
 use super::cavity::Face;
 use super::polygons::Subpolygons;

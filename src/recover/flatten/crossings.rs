@@ -87,7 +87,8 @@ impl Crossings {
                 let (e, g) = (item.ends, other.ends);
                 match (item.kind, other.kind) {
                     (Kind::Candidate(i), Kind::Candidate(j)) => {
-                        if !blocked[i] && !blocked[j] && plane.cross(e, g) {
+                        let matters = !blocked[i] && !blocked[j];
+                        if matters && plane.cross(e, g) {
                             let is_above = plane.passes_above(e, g);
                             pairs.push(if is_above { [j, i] } else { [i, j] });
                         }

@@ -56,6 +56,9 @@ impl<'a, P: PointStore> Figure<'a, P> {
         let mut candidates: Vec<[VertexId; 2]> = Vec::new();
         for (i, &v) in self.vertices.iter().enumerate() {
             let greater = &self.vertices[i + 1..];
+            if greater.is_empty() {
+                break;
+            }
             let mut take = |j: usize| {
                 let w = greater[j];
                 if !self.around(i).any(|(u, _)| u == w)

@@ -7,7 +7,10 @@
 //!
 //! Then every insertion is one of an exactly flat polygon into an edge-protected PLC, and what is proved of those holds:
 //! there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it. It may have shims, which are
-//! repaired on output (`shims.rs`).
+//! repaired on output (`shims`).
+//!
+//! After each round of Steiner points only the polygons at vertices whose stars have changed are looked at, and those that
+//! could not be cut.
 //!
 //! # End
 //! Refinement of nearly flat polygons ends in practice for the same reasons as that of segments; it is bounded by

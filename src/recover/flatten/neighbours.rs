@@ -53,8 +53,7 @@ impl Neighbours {
         }
         while let Some(t) = self.open.pop() {
             let vertices = mesh.vertices(t);
-            for slot in 0..4 {
-                let w = vertices[slot];
+            for (slot, &w) in vertices.iter().enumerate() {
                 if w == v {
                     continue;
                 }
