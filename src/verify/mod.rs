@@ -73,6 +73,9 @@ use std::borrow::Cow;
 use tables::Tables;
 use verdict::Findings;
 
+/// The most tetrahedra that can be verified.
+pub const MOST_TETS: usize = (1 << 29) - 1;
+
 /// What the mesh is expected to fill.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Domain {

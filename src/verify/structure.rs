@@ -1,11 +1,19 @@
 //! Indices are in range, coordinates are finite, no tetrahedron repeats a vertex. Nothing else is checked where this
 //! fails.
 
-use super::{Findings, Place, Violation};
+use super::{Findings, MOST_TETS, Place, Violation};
 use crate::mesh::{ExportedMesh, VertexId};
 use crate::plc::Plc;
 
+/// Sides of faces are numbered in 32 bits.
+fn check_size(tets: usize, findings: &mut Findings) {
+    if tets > MOST_TETS {
+        findings.report(Violation::TooManyTets { tets });
+    }
+}
+
 pub(super) fn check(plc: &Plc, mesh: &ExportedMesh, findings: &mut Findings) {
+    check_size(mesh.tets.len(), findings);
     let finite = |findings: &mut Findings,
                   element: &'static str,
                   places: &mut dyn Iterator<Item = [f64; 3]>| {
@@ -94,5 +102,22 @@ pub(super) fn check(plc: &Plc, mesh: &ExportedMesh, findings: &mut Findings) {
     }
     if mesh.tets.is_empty() {
         findings.report(Violation::Empty);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn too_many_tetrahedra_are_a_violation() {
+        let verdict = |tets| {
+            let mut findings = Findings::new(1);
+            check_size(tets, &mut findings);
+            findings.verdict()
+        };
+        assert!(verdict(MOST_TETS).violations.is_empty());
+        let expected = Violation::TooManyTets { tets: 1 << 29 };
+        assert_eq!(verdict(1 << 29).violations, [expected]);
     }
 }

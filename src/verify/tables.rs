@@ -1,5 +1,6 @@
 //! The tetrahedra with their faces and edges looked up by vertices: sorted arrays, nothing that the mesh itself claims.
 
+use super::MOST_TETS;
 use super::delaunay::{Spheres, side_of_sphere};
 use super::gather::{Corner, FEW, Face, Gatherer, Ordered, Use, with_corners};
 use super::points::Points;
@@ -69,7 +70,7 @@ impl<'a> Tables<'a> {
         used: Vec<bool>,
         asked: Option<Vec<bool>>,
     ) -> Tables<'a> {
-        assert!(tets.len() < 1 << 29, "fewer than 2^29 tetrahedra");
+        assert!(tets.len() <= MOST_TETS, "structure has been checked");
         // A face is looked for at its smallest vertex: that is the smallest of a tetrahedron for three of its faces, and the
         // second smallest for one.
         let [first, second] = Ordered::by_two_least(&tets, used.len());

@@ -167,6 +167,7 @@ impl fmt::Display for Verdict {
             "voids: {}, hole points meshed: {}, region points: {}, hull edges dented by rounding: {}",
             c.voids, c.holes_meshed, c.regions, c.hull_dents
         )?;
+        writeln!(f, "signs decided by integers: {}", c.exact_signs)?;
         for (kind, total) in &self.totals {
             writeln!(f, "VIOLATED {kind}: {total}")?;
         }

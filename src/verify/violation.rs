@@ -19,6 +19,12 @@ pub enum Violation {
         /// How many vertices there are.
         vertices: usize,
     },
+    /// There are more tetrahedra than [`MOST_TETS`](super::MOST_TETS).
+    #[error("{tets} tetrahedra; no more than {} can be verified", super::MOST_TETS)]
+    TooManyTets {
+        /// How many.
+        tets: usize,
+    },
     /// A coordinate is NaN or infinite.
     #[error("{element} {index} has the coordinates {at:?}")]
     NotFinite {
@@ -262,6 +268,7 @@ impl Violation {
     pub fn kind(&self) -> &'static str {
         match self {
             Violation::IndexOutOfRange { .. } => "index out of range",
+            Violation::TooManyTets { .. } => "too many tetrahedra",
             Violation::NotFinite { .. } => "coordinate not finite",
             Violation::WrongPosition { .. } => "wrong position",
             Violation::RepeatedVertex { .. } => "repeated vertex",
