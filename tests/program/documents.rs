@@ -19,7 +19,9 @@ fn fields(value: &serde_json::Value, prefix: &str, names: &mut Vec<String>) {
 #[test]
 fn the_report_has_the_documented_fields() {
     let place = Place::with(&[("rooms.poly", ROOMS), ("flat.off", FLAT)]);
-    place.run("mesh rooms.poly --report r.json").ends_with(0);
+    place
+        .run("mesh rooms.poly --verify --report r.json")
+        .ends_with(0);
     let report: serde_json::Value = serde_json::from_slice(&place.bytes("r.json")).expect("JSON");
     assert_eq!(report["input"], "rooms.poly");
     assert_eq!(report["outcome"], "ok");
