@@ -32,7 +32,7 @@ use std::error::Error;
 pub const EXPERIMENT: Experiment = Experiment {
     name: "exactness_cost",
     question: "cost of exact flip times by number type, on random and on degenerate vertices",
-    seconds: 145,
+    seconds: 125,
     run,
 };
 

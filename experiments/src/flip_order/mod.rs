@@ -30,7 +30,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub const EXPERIMENT: Experiment = Experiment {
     name: "flip_order",
     question: "what becomes of flips whose times are rounded (paper, §3.3, failure case of §3.4)",
-    seconds: 85,
+    seconds: 65,
     run,
 };
 

@@ -29,7 +29,7 @@ use std::error::Error;
 pub const EXPERIMENT: Experiment = Experiment {
     name: "growth",
     question: "growth of the times of flips and of cavities up to a million crossing tetrahedra",
-    seconds: 30,
+    seconds: 15,
     run,
 };
 

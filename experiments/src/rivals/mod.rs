@@ -34,7 +34,7 @@ use std::error::Error;
 pub const EXPERIMENT: Experiment = Experiment {
     name: "rivals",
     question: "processor time and memory beside TetGen and HXT, where they are installed",
-    seconds: 350,
+    seconds: 310,
     run,
 };
 

@@ -3,6 +3,7 @@
 use super::contestant::{Contestant, Ours};
 use super::points::Spread;
 use crate::scene::Slab;
+use std::collections::HashSet;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use tetflip::format::{read_plc, write_poly};
@@ -180,7 +181,7 @@ impl Input {
             Source::Generated(kind, size) => generate(*kind, 1, *size),
             Source::File(path) => read_plc(path)?,
             Source::PointsOf(path) => Plc {
-                vertices: read_plc(path)?.vertices,
+                vertices: distinct(read_plc(path)?.vertices),
                 ..Plc::default()
             },
         };
@@ -218,6 +219,14 @@ impl Input {
     }
 }
 
+/// Each point once, in the order of the first ones.
+fn distinct(points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
+    let mut known = HashSet::new();
+    // −0 is 0.
+    let is_new = |p: &[f64; 3]| known.insert(p.map(|x| (x + 0.0).to_bits()));
+    points.into_iter().filter(is_new).collect()
+}
+
 fn node(points: &[[f64; 3]]) -> String {
     use std::fmt::Write;
     let mut text = format!("{} 3 0 0\n", points.len());
@@ -230,6 +239,13 @@ fn node(points: &[[f64; 3]]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn points_of_models_are_distinct() {
+        let points = vec![[0.0, 1.0, 2.0], [3.0; 3], [-0.0, 1.0, 2.0], [3.0, 3.0, 4.0]];
+        let kept = [points[0], points[1], points[3]];
+        assert_eq!(distinct(points), kept);
+    }
 
     #[test]
     fn what_is_written_is_read() {

@@ -34,7 +34,7 @@ const GENERATED: &str = "generated";
 pub const EXPERIMENT: Experiment = Experiment {
     name: "steiner",
     question: "Steiner points that segments need, on small angles and on models, here and elsewhere",
-    seconds: 30,
+    seconds: 15,
     run,
 };
 

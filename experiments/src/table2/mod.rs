@@ -24,7 +24,7 @@ use std::error::Error;
 pub const EXPERIMENT: Experiment = Experiment {
     name: "table2",
     question: "shares of the time of polygon insertion by task (Table 2)",
-    seconds: 30,
+    seconds: 10,
     run,
 };
 

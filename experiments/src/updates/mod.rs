@@ -28,7 +28,7 @@ use std::error::Error;
 pub const EXPERIMENT: Experiment = Experiment {
     name: "updates",
     question: "deleting polygons and inserting them again, compared with building anew",
-    seconds: 30,
+    seconds: 15,
     run,
 };
 
