@@ -40,7 +40,7 @@ use crate::number::{Approx, Sign, Vec3};
 use crate::predicate::PointStore;
 use crate::predicate::formula::Lifted;
 
-/// The error index of an orient3d determinant of given doubles; see [`Approx`].
+/// The error index of an orient3d determinant of given doubles; see [`Approx`]. (A frame may have exact Steiner points.)
 const RATE_INDEX: u32 = 8;
 
 /// A vertex: position and rate. NaN positions where they are not doubles: then nothing is certain.
@@ -65,6 +65,8 @@ pub(super) struct Filter<'a, P> {
     known: Vec<Moving>,
     /// Of the rates of those that are known.
     largest_magnitude: f64,
+    /// The largest index of a rate: [`RATE_INDEX`], or more where vertices of the polygon's frame are no doubles.
+    rate_index: u32,
     /// The bound of D times 1/(XYZ); infinite where the bounds do not hold.
     rising_bound: f64,
     grid: Grid,
@@ -180,6 +182,7 @@ impl<'a, P: PointStore> Filter<'a, P> {
             motion,
             known: Vec::new(),
             largest_magnitude: 0.0,
+            rate_index: RATE_INDEX,
             rising_bound: f64::INFINITY,
             grid: Grid {
                 coefficient: quantum(3),
@@ -208,11 +211,19 @@ impl<'a, P: PointStore> Filter<'a, P> {
         let [x, y, z] = position.0.each_ref().map(double);
         let rate = self.motion.rate::<Approx>(v);
         let is_double = !(x.is_nan() || y.is_nan() || z.is_nan());
-        debug_assert!(rate.index() <= RATE_INDEX || !is_double);
         if is_double {
-            self.largest_magnitude = self.largest_magnitude.max(rate.magnitude());
+            // A magnitude that overflowed may be NaN, which `max` would forget: without a bound nothing is certain.
+            let magnitude = Some(rate.magnitude()).filter(|m| !m.is_nan());
+            let magnitude = magnitude.unwrap_or(f64::INFINITY);
+            self.largest_magnitude = self.largest_magnitude.max(magnitude);
+            self.rate_index = self.rate_index.max(rate.index());
+            let of_doubles = self.rate_index <= RATE_INDEX;
+            if !of_doubles {
+                // Rates about vertices that are no doubles are on no grid.
+                self.grid.denominator = 0.0;
+            }
             let r = 2.0 * self.largest_magnitude;
-            let holds = (2f64.powi(-450)..=2f64.powi(450)).contains(&r);
+            let holds = of_doubles && (2f64.powi(-450)..=2f64.powi(450)).contains(&r);
             self.rising_bound = if holds {
                 RISING_BOUND * r
             } else {
@@ -397,8 +408,9 @@ impl<'a, P: PointStore> Filter<'a, P> {
             let Moving([x, y, z, _]) = known(v);
             Vec3::<Approx>::from_f64([x, y, z])
         };
-        let rate =
-            |v: VertexId| Approx::with_bound(known(v).0[3], self.largest_magnitude, RATE_INDEX);
+        let rate = |v: VertexId| {
+            Approx::with_bound(known(v).0[3], self.largest_magnitude, self.rate_index)
+        };
         let [o, a, b, c] = tet.ids;
         let (origin, at_origin) = (position(o), rate(o));
         let others = [a, b, c].map(|v| position(v).sub(&origin));

@@ -354,6 +354,40 @@ mod tests {
         prop_oneof![lattice, jittered, scaled, mixed]
     }
 
+    /// The magnitudes of rates about so large a frame overflow, and become NaN where they meet a zero.
+    #[test]
+    fn rates_without_a_bound_decide_nothing() {
+        let s = 8e153;
+        let mut points = vec![[-s, -s, 0.0], [-s, s, 0.0], [s, s, 0.0]];
+        points.extend([
+            [0.8375779762864113, 0.9162698360159993, 0.5564543176442385],
+            [0.6516717132180929, 1.5456227399408817, 1.5489977290853858],
+            [1.7597665395587683, 1.5585642028599977, 0.6564545948058367],
+            [0.7236390076577663, 0.85994653403759, -0.14819519827142358],
+            [1.57386027649045, 2.18791710678488, 1.648998006246984],
+        ]);
+        let points = DoublePoints::new(points);
+        let frame = [0, 1, 2].map(VertexId);
+        let is_left = |v: VertexId| {
+            points
+                .orient3d([frame[0], frame[1], frame[2], v])
+                .is_positive()
+        };
+        let motion = Motion::new(&points, frame, &is_left);
+        let mut exact = ExactTimes::<_, Dyadic>::new(&motion);
+        // In all roles: the order in which vertices become known must not matter.
+        for turn in 0..5 {
+            let mut circuit = [3, 4, 5, 6, 7].map(VertexId);
+            circuit.rotate_left(turn);
+            let [a, b, c, d, _] = circuit;
+            if points.orient3d([a, b, c, d]).is_negative() {
+                circuit.swap(0, 1);
+            }
+            let filtered = FilteredTimes::new(&motion).time(circuit);
+            assert_eq!(filtered.is_some(), exact.time(circuit).is_some(), "{turn}");
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(3000))]
 

@@ -116,12 +116,16 @@ pub fn flip_of_triangle<P: PointStore>(
     let (behind1, behind2) = (old1.1[slots[i]], old2.1[slot_of(old2.0, r)]);
     let (t3, t4) = (behind1.tet(), behind2.tet());
     if signs[i].is_positive() {
-        return (t3 == t4).then_some(Flip::ThreeTwo([t1, t2, t3], [v, w, p, q, r]));
+        // The vertex of the third tetrahedron that is not in the first: one tetrahedron may stand for several that are outside
+        // of a copy of a region.
+        let is_third = t3 == t4 && mesh.vertex(behind1) == w;
+        return is_third.then_some(Flip::ThreeTwo([t1, t2, t3], [v, w, p, q, r]));
     }
     // On the other side of the plane of v, w, p, q: vqpu and wpqu.
     let u = mesh.vertex(behind1);
-    let four_around_edge =
-        mesh.vertex(behind2) == u && u != r && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
-    (four_around_edge && !u.is_infinite())
-        .then_some(Flip::FourFour([t1, t2, t3, t4], [v, w, p, q, r, u]))
+    let four_around_edge = !u.is_infinite()
+        && mesh.vertex(behind2) == u
+        && u != r
+        && mesh.neighbor(mesh.corner_of(t3, v)) == t4;
+    four_around_edge.then_some(Flip::FourFour([t1, t2, t3, t4], [v, w, p, q, r, u]))
 }
