@@ -66,12 +66,19 @@ impl Points {
     /// The distance of v from the plane abc, rounded.
     pub(super) fn distance_to_plane(&self, [a, b, c]: [VertexId; 3], v: VertexId) -> f64 {
         let (a, b, c, v) = (self.at(a), self.at(b), self.at(c), self.at(v));
-        let normal = cross(minus(b, a), minus(c, a));
-        dot(normal, minus(v, a)).abs() / dot(normal, normal).sqrt()
+        // Sides of length about 1: neither the normal nor its square underflows.
+        let sides = [minus(b, a), minus(c, a)];
+        let size = sides.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+        let [p, q] = sides.map(|side| side.map(|x| x / size));
+        let normal = cross(p, q);
+        let distance = dot(normal, minus(v, a)).abs() / dot(normal, normal).sqrt();
+        // Three points on a line up to rounding tell no distance.
+        if distance.is_finite() { distance } else { 0.0 }
     }
 
     fn within(&self, square: Dyadic, unit: Dyadic, tolerance: f64) -> bool {
-        let t = Dyadic::from_f64(tolerance);
+        // A tolerance in units of the last place of very large coordinates may be too large for a double.
+        let t = Dyadic::from_f64(tolerance.min(f64::MAX));
         !(square - &(t.clone() * &t * &unit))
             .exact_sign()
             .is_positive()

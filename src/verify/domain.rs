@@ -39,6 +39,15 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
             .collect::<Vec<&Shell>>()
     };
     let (outer, voids) = (with(Sign::Positive), with(Sign::Negative));
+    // A surface that is embedded bounds a solid or a void. Only sheets of facets, which are no faces of tetrahedra, have the
+    // volume zero; of a shell with faces nothing that follows would be asked.
+    for shell in with(Sign::Zero) {
+        if let Some(&f) = shell.faces.first() {
+            findings.report(Violation::BoundaryWithoutVolume {
+                face: case.tables.faces[f].key.map(|v| case.place(v)),
+            });
+        }
+    }
     let outer_faces = || outer.iter().flat_map(|shell| shell.faces.iter().copied());
     let hull = |findings: &mut Findings| {
         let boundary = Boundary::new(case, outer_faces().collect(), 1);

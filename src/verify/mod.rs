@@ -209,9 +209,14 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
     findings.verdict()
 }
 
-/// The distance from a non-negative double to the next one.
+/// The distance from a non-negative double to the next one, or, if there is none, to the one before.
 fn ulp(x: f64) -> f64 {
-    x.next_up() - x
+    let next = x.next_up();
+    if next.is_finite() {
+        next - x
+    } else {
+        x - x.next_down()
+    }
 }
 
 #[cfg(test)]

@@ -146,6 +146,10 @@ impl<'a> Flood<'a> {
         boundary: &[[VertexId; 2]],
         accepts: &mut dyn FnMut(VertexId) -> bool,
     ) -> Option<Vec<usize>> {
+        // Without a boundary (all edges of a closed surface are merged away) nothing would be asked for.
+        if boundary.is_empty() {
+            return None;
+        }
         self.facet += 1;
         self.open.clear();
         for &edge in boundary {
@@ -294,6 +298,7 @@ mod tests {
                 None,
                 "a vertex is not accepted"
             );
+            assert_eq!(cover(&every, &[], 9), None, "no boundary");
             assert_eq!(cover(&every, &[0, 1, 2], 9), None, "there is no edge 12");
             assert_eq!(cover(&every, &[0, 1, 3], 9), Some(vec![square[0]]));
             for missing in square {

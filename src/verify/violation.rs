@@ -197,6 +197,13 @@ pub enum Violation {
         /// The edge.
         edge: [Place; 2],
     },
+    /// A connected part of the boundary has the signed volume zero, as no boundary of a solid and of a void has: it crosses
+    /// itself.
+    #[error("the boundary that face {}, {}, {} belongs to encloses as much as it leaves out: it crosses itself", .face[0], .face[1], .face[2])]
+    BoundaryWithoutVolume {
+        /// One of its faces.
+        face: [Place; 3],
+    },
     /// A part of the domain that is enclosed by facets, and holds no hole point, has no tetrahedra.
     #[error(
         "a part of volume {volume} with {faces} boundary faces, one at {at}, is enclosed by facets, has no hole point, and is not meshed"
@@ -285,6 +292,7 @@ impl Violation {
             Violation::FacetNotCovered { .. } => "facet not covered",
             Violation::FacetArea { .. } => "facet area",
             Violation::NotLocallyDelaunay { .. } => "not locally Delaunay",
+            Violation::BoundaryWithoutVolume { .. } => "boundary without volume",
             Violation::BoundaryNotOnFacet { .. } => "boundary not on facet",
             Violation::HullNotConvex { .. } => "hull not convex",
             Violation::HullNotManifold { .. } => "hull not manifold",
