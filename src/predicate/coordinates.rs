@@ -10,7 +10,7 @@
 
 use super::formula;
 use super::integers::{self, grid_and_bits, most_bits};
-use super::stages::on_grid;
+use super::stages::{on_grid, orient3d_of_doubles};
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 
 /// 4·2⁻⁵³, rounded up.
@@ -102,16 +102,7 @@ pub(crate) fn orient3d(points: [[f64; 3]; 4]) -> Sign {
     if let Some(sign) = formula::orient3d([&pa, &pb, &pc, &pd]).sign() {
         return sign;
     }
-    let (grid, bits) = grid_and_bits(&points);
-    if bits <= most_bits(1) {
-        let on = |p| on_grid(p, grid);
-        integers::orient3d::<1, 2, 3>([on(a), on(b), on(c), on(d)])
-    } else if bits <= most_bits(2) {
-        let on = |p| on_grid(p, grid);
-        integers::orient3d::<2, 4, 6>([on(a), on(b), on(c), on(d)])
-    } else {
-        formula::orient3d(points.map(Vec3::<Dyadic>::from_f64).each_ref()).exact_sign()
-    }
+    orient3d_of_doubles(points)
 }
 
 /// The coordinate in which the normal (b−a) × (c−a) is largest, the first of several, and its sign there; `None` if the points

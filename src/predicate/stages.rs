@@ -46,17 +46,7 @@ impl DoublePoints {
             let word = |p| self.in_words(p);
             return integers::orient3d::<1, 2, 3>([word(a), word(b), word(c), word(d)]);
         }
-        let (grid, bits) = grid_and_bits(&[a, b, c, d]);
-        if bits <= most_bits(1) {
-            let on = |p| on_grid(p, grid);
-            integers::orient3d::<1, 2, 3>([on(a), on(b), on(c), on(d)])
-        } else if bits <= most_bits(2) {
-            let on = |p| on_grid(p, grid);
-            integers::orient3d::<2, 4, 6>([on(a), on(b), on(c), on(d)])
-        } else {
-            let p = [a, b, c, d].map(Vec3::<Dyadic>::from_f64);
-            formula::orient3d(p.each_ref()).exact_sign()
-        }
+        orient3d_of_doubles([a, b, c, d])
     }
 
     /// Stages 1 to 3, and the perturbation if `PERTURBED`.
@@ -156,6 +146,21 @@ impl DoublePoints {
     fn in_words(&self, [x, y, z]: [f64; 3]) -> [Integer<1>; 3] {
         let word = |x: f64| Integer::from((x * self.range.unit) as i64);
         [word(x), word(y), word(z)]
+    }
+}
+
+/// The sign of det[b−a, c−a, d−a] by stages 2 and 3, of any finite doubles.
+pub(super) fn orient3d_of_doubles(points: [[f64; 3]; 4]) -> Sign {
+    let [a, b, c, d] = points;
+    let (grid, bits) = grid_and_bits(&points);
+    if bits <= most_bits(1) {
+        let on = |p| on_grid(p, grid);
+        integers::orient3d::<1, 2, 3>([on(a), on(b), on(c), on(d)])
+    } else if bits <= most_bits(2) {
+        let on = |p| on_grid(p, grid);
+        integers::orient3d::<2, 4, 6>([on(a), on(b), on(c), on(d)])
+    } else {
+        formula::orient3d(points.map(Vec3::<Dyadic>::from_f64).each_ref()).exact_sign()
     }
 }
 
