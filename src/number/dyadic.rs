@@ -172,23 +172,37 @@ impl Number for Dyadic {
         Some(Sign::from(self.mantissa.cmp(&IBig::ZERO)))
     }
 
-    /// To within a few units in the last place; infinite or zero outside the range of doubles.
+    /// The nearest double, of two the even one; infinite or zero outside the range of doubles.
     fn to_f64(&self) -> f64 {
         use dashu_int::ops::BitTest;
-        let drop = (self.mantissa.bit_len() as i64 - 64).max(0);
-        let head = (&self.mantissa >> drop as usize).to_f64().value();
-        let mut exponent = self.exponent + drop;
-        let mut x = head;
-        // Scale in steps that a double can hold, so that a subnormal result is rounded once.
-        while exponent > 1000 && x.is_finite() && x != 0.0 {
-            x *= 2f64.powi(1000);
-            exponent -= 1000;
+        let Some(zeros) = self.mantissa.trailing_zeros() else {
+            return 0.0;
+        };
+        // The value is below 2^top; a double near it is a multiple of 2^unit.
+        let top = self.exponent + self.mantissa.bit_len() as i64;
+        if top > 1024 {
+            let is_negative = self.mantissa < IBig::ZERO;
+            return if is_negative {
+                f64::NEG_INFINITY
+            } else {
+                f64::INFINITY
+            };
         }
-        while exponent < -1000 && x != 0.0 {
-            x *= 2f64.powi(-1000);
-            exponent += 1000;
-        }
-        x * 2f64.powi(exponent.clamp(-1000, 1000) as i32)
+        let unit = (top - 53).max(-1074);
+        // In quarters of that unit, rounded down, and odd if anything is lost: which side of a half it is on is seen.
+        let drop = unit - 2 - self.exponent;
+        let quarters = if drop <= 0 {
+            &self.mantissa << drop.unsigned_abs() as usize
+        } else {
+            let lost = i64::from((zeros as i64) < drop);
+            (&self.mantissa >> drop as usize) | IBig::from(lost)
+        };
+        let quarters = i64::try_from(quarters).expect("at most 56 bits");
+        let (down, part) = (quarters >> 2, quarters & 3);
+        let up = part == 3 || part == 2 && down & 1 == 1;
+        // Steps that a double can hold: the product is a double, so that no step rounds.
+        let (first, second) = (unit / 2, unit - unit / 2);
+        (down + i64::from(up)) as f64 * 2f64.powi(first as i32) * 2f64.powi(second as i32)
     }
 }
 
@@ -209,6 +223,17 @@ mod tests {
     }
 
     proptest! {
+        /// As the processor rounds sums and products.
+        #[test]
+        fn rounds_to_the_nearest_double(a in finite(), b in finite()) {
+            let exact = |x: f64| Dyadic::from_f64(x);
+            prop_assert_eq!((exact(a) + &exact(b)).to_f64(), a + b);
+            prop_assert_eq!((exact(a) * &exact(b)).to_f64(), a * b);
+            // Near the middle of two doubles.
+            let half = exact(a) + &(exact(a * f64::EPSILON / 2.0) * &exact(b.signum()));
+            prop_assert_eq!(half.to_f64(), a + a * f64::EPSILON / 2.0 * b.signum());
+        }
+
         /// a·b + c − d in dyadics and in rationals have the same sign and value.
         #[test]
         fn agrees_with_rationals(a in finite(), b in finite(), c in finite(), d in finite()) {
