@@ -8,6 +8,7 @@ mod least;
 mod topology;
 
 pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
+pub(crate) use flip::behind;
 pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;
