@@ -10,7 +10,7 @@ use tetflip::number::Dyadic;
 use tetflip::predicate::{DoublePoints, PointStore};
 use tetflip::recover::flips::{
     Event, ExactTimes, FilteredTimes, Flip, FlipKind, FlipQueue, FlipTimes, Motion, RoundedTimes,
-    flip_of_triangle,
+    Signs, flip_of_triangle,
 };
 use tetflip::recover::region::Region;
 use tetflip::recover::side::{Side, Sides};
@@ -38,7 +38,7 @@ impl Scene {
             Event {
                 circuit: [cdt.mesh.vertex(c), x, y, z, cdt.mesh.apex_across(c)],
                 tet: c.tet(),
-                signs: [None; 3],
+                signs: Signs::UNKNOWN,
             }
         };
         let corners = region.crossing_triangles(&cdt.mesh, &sides);
@@ -159,7 +159,7 @@ fn independent(points: &DoublePoints, mesh: &TetMesh, kind: FlipKind) -> Vec<Fli
             if mesh.is_ghost(mesh.neighbor(c)) {
                 continue;
             }
-            let flip = flip_of_triangle(points, mesh, c, [None; 3]);
+            let flip = flip_of_triangle(points, mesh, c, Signs::UNKNOWN);
             let Some(flip) = flip.filter(|flip| flip.kind() == kind) else {
                 continue;
             };
@@ -210,7 +210,7 @@ pub fn flips(c: &mut Criterion) {
     group.bench_function("which", |b| {
         b.iter(|| {
             for &c in &corners {
-                black_box(flip_of_triangle(&points, &mesh, c, [None; 3]));
+                black_box(flip_of_triangle(&points, &mesh, c, Signs::UNKNOWN));
             }
         });
     });

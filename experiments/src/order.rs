@@ -16,8 +16,8 @@ use tetflip::mesh::{TetId, VertexId};
 use tetflip::number::Dyadic;
 use tetflip::predicate::PointStore;
 use tetflip::recover::flips::{
-    Event, ExactTimes, Fate, FlipOutcome, FlipTimes, Motion, Quotient, RoundedTimes, Timing, Watch,
-    WideTimes,
+    Event, ExactTimes, Fate, FlipOutcome, FlipTimes, Motion, Quotient, RoundedTimes, Signs, Timing,
+    Watch, WideTimes,
 };
 use tetflip::recover::polygons::Times;
 
@@ -228,7 +228,7 @@ fn ties<C: FlipTimes>(
         let event = Event {
             circuit,
             tet: TetId(0),
-            signs: [None; 3],
+            signs: Signs::UNKNOWN,
         };
         events.extend(timing.map(|timing| (event, timing)));
     }

@@ -7,6 +7,14 @@ use super::topology::slot_of;
 use super::{Corner, TetId, TetMesh, VertexId};
 
 impl TetMesh {
+    /// Which facets of the tetrahedra that [`TetMesh::two_to_three`] returns are on the boundary of the flipped volume, by
+    /// the bits of the opposite corners.
+    pub(crate) const OUTER_OF_THREE: [u8; 4] = [0b0011, 0b0101, 0b1001, 0];
+    /// The same for [`TetMesh::three_to_two`].
+    pub(crate) const OUTER_OF_TWO: [u8; 4] = [0b1011, 0b1101, 0, 0];
+    /// The same for [`TetMesh::four_to_four`].
+    pub(crate) const OUTER_OF_FOUR: [u8; 4] = [0b0011, 0b0101, 0b0011, 0b0101];
+
     /// 2-3: vxyz and wxzy become the three tetrahedra around vw, with w in place of x, of y and of z.
     pub fn two_to_three(
         &mut self,
@@ -18,7 +26,7 @@ impl TetMesh {
         let behind2 = [behind(old2, x), behind(old2, y), behind(old2, z)];
         let (a, b) = (t1, t2);
         let c = self.add([v, x, y, w]);
-        let [b1, c1] = [b, c].map(|t| t.corner(1));
+        let (b1, c1) = (b.corner(1), c.corner(1));
         self.put(a, [v, w, y, z], [behind2[0], behind1[0], b1, c1]);
         let (a2, c2) = (a.corner(2), c.corner(2));
         self.put(b, [v, x, w, z], [behind2[1], a2, behind1[1], c2]);
@@ -86,7 +94,7 @@ impl TetMesh {
 
 /// What lies across the facet of a tetrahedron opposite its vertex p.
 #[inline(always)]
-fn behind((vertices, twins): (&[VertexId; 4], &[Corner; 4]), p: VertexId) -> Corner {
+pub(crate) fn behind((vertices, twins): (&[VertexId; 4], &[Corner; 4]), p: VertexId) -> Corner {
     twins[slot_of(vertices, p)]
 }
 
@@ -135,6 +143,13 @@ mod tests {
         tets
     }
 
+    /// Which facets of tetrahedra are not shared by two of them.
+    fn outer(mesh: &TetMesh, tets: &[TetId]) -> Vec<u8> {
+        let bit = |c: Corner| u8::from(!tets.contains(&mesh.neighbor(c))) << c.slot();
+        let facets = |&t: &TetId| (0..4).map(|slot| bit(t.corner(slot))).sum();
+        tets.iter().map(facets).collect()
+    }
+
     #[test]
     fn three_to_two_and_back() {
         let (mut mesh, t) = around_axis(&[2, 3, 4]);
@@ -143,8 +158,10 @@ mod tests {
         let [a, b] = mesh.three_to_two([t[0], t[1], t[2]], ids([2, 4, 0, 1, 3]));
         assert_eq!(mesh.check(), Ok(()));
         assert_eq!(mesh.len(), before.len() - 1);
+        assert_eq!(outer(&mesh, &[a, b]), TetMesh::OUTER_OF_TWO[..2]);
         // The triangle 2 3 4 lies between a = 2413 with 1 and b = 2043 with 0.
-        mesh.two_to_three([a, b], ids([1, 3, 2, 4, 0]));
+        let three = mesh.two_to_three([a, b], ids([1, 3, 2, 4, 0]));
+        assert_eq!(outer(&mesh, &three), TetMesh::OUTER_OF_THREE[..3]);
         assert_eq!(mesh.check(), Ok(()));
         assert_eq!(sorted_tets(&mesh), before);
     }
@@ -157,6 +174,7 @@ mod tests {
         let [a, b, c, d] = mesh.four_to_four([t[0], t[1], t[3], t[2]], ids([2, 4, 0, 1, 3, 5]));
         assert_eq!(mesh.check(), Ok(()));
         assert_ne!(sorted_tets(&mesh), before);
+        assert_eq!(outer(&mesh, &[a, b, c, d]), TetMesh::OUTER_OF_FOUR);
         // Back: the edge 24 with 1 and 0 for v and w.
         mesh.four_to_four([a, b, d, c], ids([1, 0, 2, 4, 3, 5]));
         assert_eq!(mesh.check(), Ok(()));

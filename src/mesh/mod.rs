@@ -12,6 +12,7 @@ mod topology;
 
 pub(crate) use canonical::canonical_tet;
 pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
+pub(crate) use flip::behind;
 pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;

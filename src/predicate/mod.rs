@@ -8,7 +8,7 @@ mod double_points;
 pub mod formula;
 mod integers;
 mod naive;
-mod pairs;
+pub(crate) mod pairs;
 mod perturbation;
 mod range;
 mod segment_point;

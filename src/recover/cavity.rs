@@ -63,7 +63,7 @@ pub struct Retriangulation {
     /// The tetrahedra that take their place.
     pub new: Vec<[VertexId; 4]>,
     /// What lies across their facets, if that is known.
-    pub across: Option<Vec<[Across; 4]>>,
+    pub gluing: Option<Gluing>,
     /// The triangles of f.
     pub faces: Vec<[VertexId; 3]>,
     /// The triangles of other polygons that vanish.
@@ -72,35 +72,36 @@ pub struct Retriangulation {
     pub swallowed: usize,
 }
 
-/// What lies across a facet of a new tetrahedron.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Across {
-    /// A new tetrahedron, by its index instead of an id.
-    New(Corner),
-    /// A tetrahedron that stays in the mesh.
-    Old(Corner),
+/// What lies across the facets of new tetrahedra, which are named by their indices instead of ids.
+#[derive(Clone, Debug)]
+pub struct Gluing {
+    /// Other new tetrahedra, or none.
+    pub across: Vec<[Corner; 4]>,
+    /// The other corners of new tetrahedra, each with that of a tetrahedron that stays in the mesh.
+    pub outside: Vec<(Corner, Corner)>,
 }
 
 impl Retriangulation {
     /// Puts the new tetrahedra into the place of the old ones. Returns their ids, in order.
     pub fn graft(&self, mesh: &mut TetMesh) -> Vec<TetId> {
         debug_assert!(mesh.can_replace(&self.old, &self.new));
-        let Some(across) = &self.across else {
+        let Some(gluing) = &self.gluing else {
             return mesh.replace(&self.old, &self.new);
         };
         for &t in &self.old {
             mesh.remove(t);
         }
         let ids: Vec<TetId> = self.new.iter().map(|&v| mesh.add(v)).collect();
-        for (&t, across) in ids.iter().zip(across) {
+        let corner = |c: Corner| ids[c.tet().index()].corner(c.slot());
+        for (&t, across) in ids.iter().zip(&gluing.across) {
             for (slot, &across) in across.iter().enumerate() {
-                match across {
-                    Across::New(c) => {
-                        mesh.set_twin(t.corner(slot), ids[c.tet().index()].corner(c.slot()));
-                    }
-                    Across::Old(c) => mesh.glue(t.corner(slot), c),
+                if across != Corner::NONE {
+                    mesh.set_twin(t.corner(slot), corner(across));
                 }
             }
+        }
+        for &(new, old) in &gluing.outside {
+            mesh.glue(corner(new), old);
         }
         ids
     }
@@ -138,39 +139,41 @@ pub fn retriangulate<P: PointStore>(
     let [below, above] = place.boundaries()?;
     let [below_f, on_f, above_f] = place.vertices(scratch);
 
-    let vertices = [below_f.as_slice(), &on_f];
-    let mut right = Cavity::new(place, Side::Right, vertices, &below, &[], scratch)?;
-    let border = right.open_edges();
-    right.expand()?;
-    right.scratch.clock.end(Task::CavityFaces);
-    let (faces, corners) = right.faces_on_hull(&border)?;
-    right.scratch.clock.end(Task::PolygonFaces);
-    for (&facet, &corner) in faces.iter().zip(&corners) {
-        right.walls.add(Wall::of_polygon(facet, corner));
-    }
-    let below = right
-        .walls
-        .inside(&right.d.mesh)
-        .ok_or(Refused::NotExposed)?;
-    right.scratch.clock.end(Task::Merging);
-    let mut swallowed = right.swallowed;
+    let mut filled = Filled::with_capacity(region.tets.len());
+    // Only one of the cavities is there at a time: the second one uses the memory of the first one again.
+    let (faces, mut swallowed) = {
+        let vertices = [below_f.as_slice(), &on_f];
+        let mut right = Cavity::new(place, Side::Right, vertices, below, scratch)?;
+        let border = right.open_edges();
+        right.expand()?;
+        right.scratch.clock.end(Task::CavityFaces);
+        let (faces, corners) = right.faces_on_hull(&border)?;
+        right.scratch.clock.end(Task::PolygonFaces);
+        for (&facet, &corner) in faces.iter().zip(&corners) {
+            right.walls.add(Wall::of_polygon(facet, corner));
+        }
+        right.fill(&mut filled)?;
+        (faces, right.swallowed)
+    };
 
-    let turned: Vec<[VertexId; 3]> = faces.iter().map(|&[a, b, c]| [b, a, c]).collect();
+    let mut above = above;
+    let turned = |&[a, b, c]: &[VertexId; 3]| Wall::of_polygon([b, a, c], Corner::NONE);
+    above.extend(faces.iter().map(turned));
     let vertices = [above_f.as_slice(), &on_f];
-    let mut left = Cavity::new(place, Side::Left, vertices, &above, &turned, scratch)?;
+    let mut left = Cavity::new(place, Side::Left, vertices, above, scratch)?;
     left.expand()?;
     left.scratch.clock.end(Task::CavityFaces);
     if !left.has_polygon() {
         return Err(Refused::Incompatible);
     }
-    let above = left.walls.inside(&left.d.mesh).ok_or(Refused::NotExposed)?;
+    left.fill(&mut filled)?;
     swallowed.append(&mut left.swallowed);
 
     let mut old = region.tets.clone();
     old.extend(&swallowed);
     old.sort_unstable();
     let is_old = |t: TetId| region.contains(t) || scratch.swallowed_by.get(t.index()).is_some();
-    let (new, across) = Filled::join(below, above, &is_old).ok_or(Refused::NotExposed)?;
+    let (new, gluing) = filled.join(&is_old).ok_or(Refused::NotExposed)?;
     let displaced = is_subpolygon.map_or_else(Vec::new, |is_subpolygon| {
         vanishing(place, &old, &new, &is_old, is_subpolygon)
     });
@@ -178,7 +181,7 @@ pub fn retriangulate<P: PointStore>(
     Ok(Retriangulation {
         old,
         new,
-        across: Some(across),
+        gluing: Some(gluing),
         faces,
         displaced,
         swallowed: swallowed.len(),
@@ -296,14 +299,13 @@ struct Cavity<'a, P> {
 }
 
 impl<'a, P: PointStore> Cavity<'a, P> {
-    /// The part of R on one side of f, and D. `vertices` are those there and on f, `boundary` is that of R there, `f` the
+    /// The part of R on one side of f, and D. `vertices` are those there and on f, `walls` are the boundary of R there, and the
     /// triangles of f if they are known.
     fn new(
         place: Place<'a, P>,
         side: Side,
         vertices: [&[VertexId]; 2],
-        boundary: &[Wall],
-        f: &[[VertexId; 3]],
+        walls: Vec<Wall>,
         scratch: &'a mut CavityScratch,
     ) -> Result<Self, Refused> {
         scratch.tet_at.clear();
@@ -315,8 +317,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
         scratch.clock.end(Task::CavityFaces);
         let d = delaunay(place.sides.points(), &vertices).map_err(|_| Refused::NotExposed)?;
         scratch.clock.end(Task::CavityDelaunay);
-        let f = f.iter().map(|&facet| Wall::of_polygon(facet, Corner::NONE));
-        let mut walls = Walls::new(boundary.iter().copied().chain(f));
+        let mut walls = Walls::new(walls);
         walls.find_all(&d.mesh);
         Ok(Cavity {
             place,
@@ -340,6 +341,13 @@ impl<'a, P: PointStore> Cavity<'a, P> {
         let all: FxHashSet<[VertexId; 2]> = edges.iter().copied().collect();
         let edges = edges.into_iter().map(|[a, b]| [b, a]);
         edges.filter(|e| !all.contains(e)).collect()
+    }
+
+    /// Adds the tetrahedra of D inside.
+    fn fill(&mut self, filled: &mut Filled) -> Result<(), Refused> {
+        let filling = self.walls.fill(&self.d.mesh, filled);
+        self.scratch.clock.end(Task::Merging);
+        filling.ok_or(Refused::NotExposed)
     }
 
     /// Swallows tetrahedra until every boundary facet is in D.

@@ -85,7 +85,7 @@ pub fn gift_wrap<P: PointStore>(
     let wrapped = Retriangulation {
         old: region.tets.clone(),
         new,
-        across: None,
+        gluing: None,
         faces,
         displaced: Vec::new(),
         swallowed: 0,

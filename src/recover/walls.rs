@@ -8,7 +8,7 @@
 //!
 //! Complexity: linear in the sizes of the boundary and of D; [`Walls::find_again`] in the degrees of the vertices.
 
-use super::cavity::{Across, Face, face};
+use super::cavity::{Face, Gluing, face};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -73,8 +73,7 @@ pub struct Walls {
 
 impl Walls {
     /// The given walls.
-    pub fn new(walls: impl Iterator<Item = Wall>) -> Walls {
-        let list: Vec<Wall> = walls.collect();
+    pub fn new(list: Vec<Wall>) -> Walls {
         let faces = list.iter().map(|wall| face(wall.facet));
         Walls {
             by_face: faces.zip(0..).collect(),
@@ -159,12 +158,11 @@ impl Walls {
         missing
     }
 
-    /// The tetrahedra of D that the walls enclose: those reached from their inner sides. `None` if the walls are not all in
+    /// Adds the tetrahedra of D that the walls enclose: those reached from their inner sides. `None` if the walls are not all in
     /// D, or do not enclose anything.
-    pub fn inside(&self, d: &TetMesh) -> Option<Filled> {
-        let walls: Vec<&Wall> = self.current().collect();
+    pub fn fill(&self, d: &TetMesh, filled: &mut Filled) -> Option<()> {
         let mut walled = vec![0u8; d.capacity()];
-        for wall in &walls {
+        for wall in self.current() {
             if !wall.has_inside(d) {
                 return None;
             }
@@ -175,49 +173,44 @@ impl Walls {
         // 1 + the number of each enclosed tetrahedron.
         let mut number = vec![0u32; d.capacity()];
         let mut inside: Vec<TetId> = Vec::with_capacity(d.len());
+        let first = filled.tets.len() as u32;
         let mut enter = |t: TetId, inside: &mut Vec<TetId>| {
             let number = &mut number[t.index()];
             if *number == 0 {
                 inside.push(t);
-                *number = inside.len() as u32;
+                *number = first + inside.len() as u32;
             }
-            *number - 1
+            TetId(*number - 1)
         };
-        for wall in &walls {
+        for wall in self.current() {
             enter(wall.inside.tet(), &mut inside);
         }
-        let mut across = Vec::with_capacity(d.len());
         let mut next = 0;
         while let Some(&t) = inside.get(next) {
-            let mut of_t = [Across::New(Corner::NONE); 4];
-            for (slot, across) in of_t.iter_mut().enumerate() {
+            let (&vertices, twins) = d.tet(t);
+            let mut across = [Corner::NONE; 4];
+            for (slot, across) in across.iter_mut().enumerate() {
                 if walled[t.index()] >> slot & 1 == 0 {
-                    let twin = d.twin(t.corner(slot));
+                    let twin = twins[slot];
                     if d.is_ghost(twin.tet()) {
                         return None;
                     }
-                    let n = TetId(enter(twin.tet(), &mut inside));
-                    *across = Across::New(n.corner(twin.slot()));
+                    *across = enter(twin.tet(), &mut inside).corner(twin.slot());
                 }
             }
-            across.push(of_t);
+            filled.tets.push(vertices);
+            filled.across.push(across);
             next += 1;
         }
-        let mut seams = Vec::new();
-        for wall in walls {
+        for wall in self.current() {
             if number[d.neighbor(wall.inside).index()] != 0 {
                 return None;
             }
             let t = TetId(number[wall.inside.tet().index()] - 1);
-            let c = t.corner(wall.inside.slot());
-            across[t.index()][c.slot()] = Across::Old(wall.outside);
-            seams.push((c, face(wall.facet)));
+            let inside = t.corner(wall.inside.slot());
+            filled.walls.push((inside, wall.outside, face(wall.facet)));
         }
-        Some(Filled {
-            tets: inside.into_iter().map(|t| d.vertices(t)).collect(),
-            across,
-            walls: seams,
-        })
+        Some(())
     }
 }
 
@@ -250,54 +243,50 @@ fn corner_with(
     None
 }
 
-/// The tetrahedra that fill a cavity.
+/// The tetrahedra that fill two cavities.
 #[derive(Clone, Debug)]
 pub struct Filled {
     tets: Vec<[VertexId; 4]>,
-    across: Vec<[Across; 4]>,
-    /// The walled corners, by index instead of id, with their triangles.
-    walls: Vec<(Corner, Face)>,
+    /// What is across their facets, by index instead of id; none at walls.
+    across: Vec<[Corner; 4]>,
+    /// The walled corners, by index instead of id, what is outside, and the triangles.
+    walls: Vec<(Corner, Corner, Face)>,
 }
 
 impl Filled {
+    /// None yet, but room for so many.
+    pub fn with_capacity(tets: usize) -> Filled {
+        Filled {
+            tets: Vec::with_capacity(tets),
+            across: Vec::with_capacity(tets),
+            walls: Vec::with_capacity(tets),
+        }
+    }
+
     /// The tetrahedra of both cavities, and what is across their facets: triangles of f, and others beyond which there are old
     /// tetrahedra, must be common to both, or `None` is returned.
-    #[expect(clippy::type_complexity)]
-    pub fn join(
-        mut below: Filled,
-        above: Filled,
-        is_old: &dyn Fn(TetId) -> bool,
-    ) -> Option<(Vec<[VertexId; 4]>, Vec<[Across; 4]>)> {
-        let first = below.tets.len() as u32;
-        let raised = |c: Corner| TetId(c.tet().0 + first).corner(c.slot());
-        let is_seam = |across: Across| match across {
-            Across::New(_) => false,
-            Across::Old(c) => c == Corner::NONE || is_old(c.tet()),
-        };
-        let walls_above = above.walls.iter().map(|&(c, face)| (raised(c), face));
-        below.tets.extend(above.tets);
-        below.across.extend(above.across.iter().map(|across| {
-            across.map(|across| match across {
-                Across::New(c) => Across::New(raised(c)),
-                old => old,
-            })
-        }));
-        let mut across = below.across;
+    pub fn join(mut self, is_old: &dyn Fn(TetId) -> bool) -> Option<(Vec<[VertexId; 4]>, Gluing)> {
+        let mut outside = Vec::with_capacity(self.walls.len());
         let mut open: FxHashMap<Face, Corner> = FxHashMap::default();
-        for (c, face) in below.walls.into_iter().chain(walls_above) {
-            if !is_seam(across[c.tet().index()][c.slot()]) {
+        for (c, old, face) in self.walls {
+            if old != Corner::NONE && !is_old(old.tet()) {
+                outside.push((c, old));
                 continue;
             }
             match open.remove(&face) {
                 Some(d) => {
-                    across[c.tet().index()][c.slot()] = Across::New(d);
-                    across[d.tet().index()][d.slot()] = Across::New(c);
+                    self.across[c.tet().index()][c.slot()] = d;
+                    self.across[d.tet().index()][d.slot()] = c;
                 }
                 None => {
                     open.insert(face, c);
                 }
             }
         }
-        open.is_empty().then_some((below.tets, across))
+        let gluing = Gluing {
+            across: self.across,
+            outside,
+        };
+        open.is_empty().then_some((self.tets, gluing))
     }
 }

@@ -118,8 +118,7 @@ fn rounded_times<P: PointStore>(
         .flat_map(|[a, b, c, d]| [[a, b, c, d], [a, c, d, b], [a, d, b, c]]);
     let mut range: Option<[f64; 2]> = None;
     for order in orders {
-        let lift = times.lift(order);
-        if let Some(timing) = times.time_across(&lift, circuit, |_| true) {
+        if let Some(timing) = times.time_across(order, circuit, |_, _| true) {
             let [least, most] = range.unwrap_or([timing.time; 2]);
             range = Some([least.min(timing.time), most.max(timing.time)]);
         }

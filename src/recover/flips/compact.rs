@@ -9,6 +9,7 @@
 //! Time linear in the size of R, there and back.
 
 use super::room::Room;
+use crate::machine::less;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 use crate::recover::region::Region;
@@ -62,12 +63,8 @@ impl Parts {
 impl Room for Parts {
     #[inline(always)]
     fn left_and_right(&self, &[a, b, c, d]: &[VertexId; 4]) -> [u8; 2] {
-        let left = |v: VertexId| u8::from(v.0 < self.left);
-        let right = |v: VertexId| u8::from(v.0 >= self.right);
-        [
-            left(a) | left(b) << 1 | left(c) << 2 | left(d) << 3,
-            right(a) | right(b) << 1 | right(c) << 2 | right(d) << 3,
-        ]
+        let ids = [a.0, b.0, c.0, d.0];
+        [less(ids, self.left), !less(ids, self.right) & 0b1111]
     }
 
     #[inline(always)]

@@ -17,7 +17,7 @@
 //!
 //! Time: O(n log n) comparisons for n events.
 
-use super::event::{self, Event};
+use super::event::{self, Event, Signs};
 use super::moves::{FlipKind, flip_of_triangle};
 use super::queue::FlipQueue;
 use super::time::{FlipTimes, Timing};
@@ -156,7 +156,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
         let event = Event {
             circuit,
             tet: s.tet(),
-            signs: [None; 3],
+            signs: Signs::UNKNOWN,
         };
         self.queue.push(&mut self.times, event, timing);
         Ok(())
@@ -182,7 +182,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
 
     /// Removes the triangle opposite corner `s`.
     fn flip(&mut self, s: Corner) -> Result<(FlipKind, Created), Blocked> {
-        let flip = flip_of_triangle(self.points, self.mesh, s, [None; 3])
+        let flip = flip_of_triangle(self.points, self.mesh, s, Signs::UNKNOWN)
             .ok_or_else(|| Blocked::NoFlip(face(self.mesh.facet(s))))?;
         if let Some([p, q, _]) = flip.edge()
             && (self.kept.edge)([p, q])

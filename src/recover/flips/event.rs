@@ -1,4 +1,4 @@
-//! A potential flip.
+//! Potential flips: events, and lists of triangles to certify.
 
 use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId, slot_of};
 use crate::number::Sign;
@@ -11,7 +11,40 @@ pub struct Event {
     /// The tetrahedron that was vxyz when the event was made.
     pub tet: TetId,
     /// The signs of the circuit's coefficients c_x, c_y, c_z, where they are known: which kind of flip it is.
-    pub signs: [Option<Sign>; 3],
+    pub signs: Signs,
+}
+
+/// The signs of a circuit's coefficients c_x, c_y, c_z, where they are known: the bits 0, 1, 2.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Signs {
+    pub(super) negative: u8,
+    pub(super) positive: u8,
+    pub(super) zero: u8,
+}
+
+impl Signs {
+    /// None is known.
+    pub const UNKNOWN: Signs = Signs {
+        negative: 0,
+        positive: 0,
+        zero: 0,
+    };
+
+    /// Those that are known, as bits.
+    #[inline(always)]
+    pub(super) fn known(self) -> u8 {
+        self.negative | self.positive | self.zero
+    }
+
+    /// Notes the sign of c_x, c_y or c_z.
+    pub(super) fn set(&mut self, i: usize, sign: Sign) {
+        let signs = match sign {
+            Sign::Negative => &mut self.negative,
+            Sign::Zero => &mut self.zero,
+            Sign::Positive => &mut self.positive,
+        };
+        *signs |= 1 << i;
+    }
 }
 
 /// v, x, y, z, w of the triangle opposite corner `c`, at v.
@@ -35,5 +68,33 @@ impl Event {
         }
         let slot = slot_of(vertices, v);
         (mesh.vertex(twins[slot]) == w).then(|| self.tet.corner(slot))
+    }
+}
+
+/// A list of facets, by the opposite corners, that is made without branches: at most those of four tetrahedra.
+pub(super) struct Facets {
+    corners: [Corner; 16],
+    len: usize,
+}
+
+impl Default for Facets {
+    fn default() -> Facets {
+        Facets {
+            corners: [Corner::NONE; 16],
+            len: 0,
+        }
+    }
+}
+
+impl Facets {
+    #[inline(always)]
+    pub(super) fn push_if(&mut self, c: Corner, is_chosen: bool) {
+        self.corners[self.len & 15] = c;
+        self.len += usize::from(is_chosen);
+    }
+
+    #[inline(always)]
+    pub(super) fn as_slice(&self) -> &[Corner] {
+        &self.corners[..self.len]
     }
 }

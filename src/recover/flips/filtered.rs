@@ -30,11 +30,12 @@
 //! q̂_B − q̂_A > (w_A + w_B)(1 + 2⁻⁵⁰) in floats implies τ_A < τ_B: the left side is at most (1 + u) times its exact value,
 //! the right side at least (1 + 2⁻⁵⁰)(1 − 2u) > 1 + u times w_A + w_B. NaN and infinity make it false.
 
-use super::filter::{Bounded, Filter, LiftedTet};
+use super::event::Signs;
+use super::filter::{Bounded, Filter};
 use super::motion::Motion;
 use super::time::{ExactTimes, FlipTimes, Quotient, Timed, Timing, Undecided, same_vertices};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Sign};
+use crate::number::Dyadic;
 use crate::predicate::PointStore;
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -177,7 +178,7 @@ impl<'a, P: PointStore> FilteredTimes<'a, P> {
         place
     }
 
-    /// The coefficients of a circuit join N and D in integers, if they are certain, too.
+    /// N and D of a circuit and its coefficients, in quanta.
     fn integers(&self, circuit: [VertexId; 5], [n, d]: [i64; 2], c: [i64; 5]) -> Exactly {
         let mut terms = [0, 1, 2, 3, 4].map(|i| (self.points.identity(circuit[i]), c[i]));
         terms.sort_unstable();
@@ -194,13 +195,6 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
     type Time = FilteredTime;
     const EXACT: bool = true;
 
-    type Lift = LiftedTet;
-
-    #[inline]
-    fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
-        self.filter.lift(tet)
-    }
-
     #[inline]
     fn prefetch(&self, v: VertexId) {
         self.filter.prefetch(v);
@@ -209,16 +203,17 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
     #[inline]
     fn time_across(
         &mut self,
-        lift: &LiftedTet,
+        _: [VertexId; 4],
         circuit: [VertexId; 5],
-        is_wanted: impl FnOnce([Option<Sign>; 3]) -> bool,
+        is_wanted: impl FnOnce(Signs, bool) -> bool,
     ) -> Option<Timing<Enclosure, FilteredTime>> {
-        let across = self.filter.across(lift, circuit[4])?;
-        let signs = self.filter.signs(lift, &across, circuit);
-        if !is_wanted(signs) {
+        let mut rising = self.filter.evaluate(circuit);
+        let may_rise = self.filter.may_rise(&mut rising);
+        let signs = self.filter.signs(&rising);
+        if !is_wanted(signs, may_rise) {
             return None;
         }
-        if !across.d.is_positive() {
+        if !rising.d.is_positive() {
             let quotient = self.exact.exact_quotient(circuit)?;
             return Some(Timing {
                 key: Enclosure::new(0.0, f32::INFINITY),
@@ -226,18 +221,15 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
                 signs,
             });
         }
-        let n = self.filter.resting(lift, &across);
-        let quotient = self.filter.integers(lift, &across, &n);
-        let integers =
-            quotient.and_then(|q| Some((q, self.filter.coefficients(lift, &across, circuit)?)));
-        let time = match integers {
+        let n = self.filter.resting(&rising);
+        let time = match self.filter.integers(&rising, &n) {
             Some((quotient, c)) => {
                 let integers = self.integers(circuit, quotient, c);
                 self.keep(integers)
             }
             None => FilteredTime::default(),
         };
-        let (middle, width) = enclosure(&n, &across.d);
+        let (middle, width) = enclosure(&n, &rising.d);
         let scale = *self.scale.get_or_insert_with(|| inverse_power(middle));
         let key = Enclosure::new(middle * scale, ((width * scale) as f32).next_up());
         Some(Timing { key, time, signs })
@@ -431,7 +423,7 @@ mod tests {
                         prop_assert_eq!(&quanta(k, 3), &c[place]);
                     }
                 }
-                let event = Event { circuit, tet: crate::mesh::TetId(0), signs: [None; 3] };
+                let event = Event { circuit, tet: crate::mesh::TetId(0), signs: Signs::UNKNOWN };
                 events.push((event, f, e));
             }
             for (a, fa, ea) in &events {

@@ -7,12 +7,14 @@
 //! Large regions are flipped in a copy (`compact.rs`) if the times are filtered ones and nobody watches.
 
 mod compact;
+mod counts;
 mod deletion;
 mod event;
 mod filter;
 mod filtered;
 mod motion;
 mod moves;
+mod patches;
 mod queue;
 mod room;
 mod rounded;
@@ -21,10 +23,14 @@ mod time;
 mod watch;
 mod wide;
 
+use counts::most_flips;
+pub use counts::{FlipCounts, FlipOutcome};
 pub use deletion::{Blocked, Deleted, FlipDeletion, Kept};
-pub use event::Event;
+use event::Facets;
+pub use event::{Event, Signs};
 pub use filtered::{Enclosure, FilteredTime, FilteredTimes};
 pub use motion::{LeftVertices, Motion, VertexNumbers};
+use moves::is_flippable;
 pub use moves::{Flip, FlipKind, flip_of_triangle};
 pub use queue::FlipQueue;
 pub use room::Room;
@@ -37,111 +43,8 @@ pub use wide::WideTimes;
 use super::side::{Side, Sides, crossing_facets};
 use crate::clock::{Task, TaskClock};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
-use crate::number::Sign;
 use crate::predicate::PointStore;
 use arrayvec::ArrayVec;
-use serde::Serialize;
-
-/// What the flips of one or several insertions were.
-#[derive(Clone, Copy, Default, PartialEq, Eq, Debug, Serialize)]
-pub struct FlipCounts {
-    /// 2-to-3 flips.
-    pub two_three: u64,
-    /// 3-to-2 flips.
-    pub three_two: u64,
-    /// 4-to-4 flips.
-    pub four_four: u64,
-    /// Events put on the queue.
-    pub queued: u64,
-    /// Events whose triangle was gone when they came off the queue.
-    pub stale: u64,
-    /// Events that came off the queue with both tetrahedra in place, but whose flip was impossible; rounded times only.
-    /// They go to the list L (third patch of §3.3).
-    pub postponed: u64,
-    /// Of those, flips done later from L.
-    pub performed_from_list: u64,
-    /// Events discarded because their flip would have removed a tetrahedron outside R (first patch).
-    pub discarded_outside: u64,
-    /// Flips of non-crossing triangles that were not locally Delaunay (second patch).
-    pub non_crossing: u64,
-    /// Flip times discarded because the rounded quotient was not finite.
-    pub overflows: u64,
-    /// Comparisons of times in the queue.
-    pub comparisons: u64,
-    /// Of those, left by float enclosures to exact quotients; filtered times only.
-    pub compared_exactly: u64,
-    /// Of those, left by equal quotients to the perturbation; exact times only.
-    pub ties: u64,
-    /// Events whose quotient was computed in exact numbers of any size; exact times only.
-    pub big_quotients: u64,
-}
-
-impl FlipCounts {
-    /// All flips.
-    pub fn flips(&self) -> u64 {
-        self.two_three + self.three_two + self.four_four
-    }
-
-    fn count(&mut self, kind: FlipKind) {
-        match kind {
-            FlipKind::TwoThree => self.two_three += 1,
-            FlipKind::ThreeTwo => self.three_two += 1,
-            FlipKind::FourFour => self.four_four += 1,
-        }
-    }
-
-    /// Notes what the queue and its order have counted.
-    fn record<C: FlipTimes>(&mut self, queue: &FlipQueue<C>, times: &C) {
-        let undecided = times.undecided();
-        self.queued = queue.arrived();
-        self.comparisons = queue.comparisons();
-        self.compared_exactly = undecided.compared_exactly;
-        self.ties = undecided.ties;
-        self.big_quotients = undecided.big_quotients;
-        self.overflows = undecided.overflows;
-    }
-
-    /// Adds the counts of another insertion.
-    pub fn add(&mut self, other: &FlipCounts) {
-        self.two_three += other.two_three;
-        self.three_two += other.three_two;
-        self.four_four += other.four_four;
-        self.queued += other.queued;
-        self.stale += other.stale;
-        self.postponed += other.postponed;
-        self.performed_from_list += other.performed_from_list;
-        self.discarded_outside += other.discarded_outside;
-        self.non_crossing += other.non_crossing;
-        self.overflows += other.overflows;
-        self.comparisons += other.comparisons;
-        self.compared_exactly += other.compared_exactly;
-        self.ties += other.ties;
-        self.big_quotients += other.big_quotients;
-    }
-}
-
-/// How an insertion ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum FlipOutcome {
-    /// No crossing tetrahedron is left.
-    Done,
-    /// The queue is empty, and this many crossing tetrahedra are left.
-    Stuck {
-        /// Crossing tetrahedra left.
-        crossing: usize,
-    },
-    /// An event came off the exact queue with both tetrahedra in place, but its flip is impossible or would remove a
-    /// tetrahedron outside R. With exact times and a flat polygon in an edge-protected PLC this cannot happen.
-    Impossible,
-    /// Inexact orders only: more flips than any insertion needs.
-    Endless,
-}
-
-/// The most flips that an insertion into a region of `n` tetrahedra may do in an inexact order. Usually they are fewer
-/// than 5n.
-fn most_flips(n: usize) -> u64 {
-    1000 + 100 * n as u64
-}
 
 /// The tetrahedra that a flip created.
 type Created = ArrayVec<TetId, 4>;
@@ -149,11 +52,16 @@ type Created = ArrayVec<TetId, 4>;
 /// Edges whose flips have been queued in one round of certifications: of at most four tetrahedra.
 type Edges = ArrayVec<[VertexId; 3], 16>;
 
+#[inline(always)]
+fn is_same([a, b, c]: [VertexId; 3], [p, q, r]: [VertexId; 3]) -> bool {
+    (a == p) & (b == q) & (c == r)
+}
+
 /// How many events ahead of the next one memory is fetched for.
 const FAR: usize = 16;
 
-/// A region of so many tetrahedra does not fit into a processor's first cache.
-const LARGE: usize = 1000;
+/// A region of so many tetrahedra does not fit into a processor's second cache.
+const LARGE: usize = 10_000;
 
 /// The insertion of one missing region of a polygon.
 pub struct FlipInsertion<'a, P, C: FlipTimes, R> {
@@ -226,11 +134,14 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
         tets: impl ExactSizeIterator<Item = TetId>,
     ) -> (FlipOutcome, FlipCounts) {
         self.is_large = tets.len() > LARGE;
+        self.queue.reserve(tets.len() + tets.len() / 2);
         if !C::EXACT {
             self.most_flips = most_flips(tets.len());
         }
         for t in tets {
-            self.certify_facets(t, |s, twin| s < twin, &mut Edges::new());
+            let mut list = Facets::default();
+            self.list_facets(t, self.first_facets(t), &mut list);
+            self.certify_all(&list);
         }
         self.end(Task::Queueing);
         let mut outcome = FlipOutcome::Done;
@@ -241,10 +152,10 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
                 continue;
             };
             match self.flip(s, event.signs) {
-                Ok((kind, created)) => {
-                    self.tell(event.circuit, Fate::Flipped(kind));
+                Ok((flip, created)) => {
+                    self.tell(event.circuit, Fate::Flipped(flip.kind()));
                     self.end(Task::Flipping);
-                    self.certify_around(&created);
+                    self.certify_around(&flip, &created);
                     self.end(Task::Queueing);
                     if !C::EXACT {
                         self.patch_after_flip(&created);
@@ -310,19 +221,32 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
     /// when it changes, then by a flip that puts a new tetrahedron at the edge. A triangle between that one and an old
     /// one is then certified; if there is none the whole star is new, and inside of a 2-3 flip, whose circuit has been
     /// flipped already. The paper queues more, and so do we with rounded times.
-    fn certify(&mut self, s: Corner, lift: &C::Lift, done: &mut Edges) {
+    #[inline(always)]
+    fn certify(&mut self, s: Corner, done: &mut Edges) {
         let (mesh, points) = (&*self.mesh, self.points);
         let circuit = event::circuit(mesh, s);
         let mut edge = None;
-        let is_wanted = |signs| {
-            let flip = flip_of_triangle(points, mesh, s, signs);
-            edge = flip.as_ref().and_then(Flip::edge);
-            flip.is_some() && edge.is_none_or(|edge| !done.contains(&edge))
+        let is_wanted = |signs: Signs, may_rise: bool| {
+            let is_possible = if signs.negative | signs.positive == 0b111 {
+                is_flippable(mesh, s, signs.negative)
+            } else {
+                flip_of_triangle(points, mesh, s, signs).is_some()
+            };
+            if !(is_possible & may_rise) {
+                return false;
+            }
+            if signs.negative != 0b111 {
+                edge = flip_of_triangle(points, mesh, s, signs).and_then(|flip| flip.edge());
+            }
+            edge.is_none_or(|edge| !done.iter().any(|&other| is_same(edge, other)))
         };
-        let Some(timing) = self.times.time_across(lift, circuit, is_wanted) else {
+        let tet = *mesh.tet(s.tet()).0;
+        let Some(timing) = self.times.time_across(tet, circuit, is_wanted) else {
             return;
         };
-        done.extend(edge);
+        if let Some(edge) = edge {
+            done.push(edge);
+        }
         let signs = timing.signs;
         let event = Event {
             circuit,
@@ -338,51 +262,47 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
     /// that plane are on the boundary of both, so they are certified, too; forgetting them leaves the queue without the
     /// flips that must come next. (The inner triangles of a 2-3 or 3-2 flip belong to the circuit that has just been
     /// flipped and stay locally convex.)
-    fn certify_around(&mut self, created: &[TetId]) {
-        let two_flips = created.len() == 4;
+    fn certify_around(&mut self, flip: &Flip, created: &[TetId]) {
+        let mut list = Facets::default();
+        for (&t, mut facets) in created.iter().zip(flip.outer_facets()) {
+            if flip.kind() == FlipKind::FourFour {
+                facets |= self.first_facets(t);
+            }
+            self.list_facets(t, facets, &mut list);
+        }
+        self.certify_all(&list);
+    }
+
+    /// Certifies the triangles of a list, one round.
+    #[inline(never)]
+    fn certify_all(&mut self, list: &Facets) {
         let mut done = Edges::new();
-        for &t in created {
-            let is_boundary = |s: Corner, twin: Corner| {
-                let mut is_inner = false;
-                for &t in created {
-                    is_inner |= t == twin.tet();
-                }
-                !is_inner || (two_flips && s < twin)
-            };
-            self.certify_facets(t, is_boundary, &mut done);
+        for &s in list.as_slice() {
+            self.certify(s, &mut done);
         }
     }
 
-    /// Certifies those crossing triangles of a tetrahedron, between two of R, that are chosen by corner and twin.
+    /// The facets of a tetrahedron whose corners are less than those on the other side: of each facet, one.
     #[inline(always)]
-    fn certify_facets(
-        &mut self,
-        t: TetId,
-        is_chosen: impl Fn(Corner, Corner) -> bool,
-        done: &mut Edges,
-    ) {
+    fn first_facets(&self, t: TetId) -> u8 {
+        let twins = self.mesh.tet(t).1;
+        let first = |slot: usize| u8::from(t.corner(slot) < twins[slot]) << slot;
+        first(0) | first(1) | first(2) | first(3)
+    }
+
+    /// Lists the crossing triangles among some facets of a tetrahedron, but for the boundary of R.
+    #[inline(always)]
+    fn list_facets(&self, t: TetId, facets: u8, list: &mut Facets) {
         let (vertices, twins) = self.mesh.tet(t);
-        let mut chosen = crossing_facets(self.room.left_and_right(vertices));
-        for (slot, &twin) in twins.iter().enumerate() {
-            let is_chosen = is_chosen(t.corner(slot), twin) && self.room.contains(twin.tet());
-            chosen &= !(u8::from(!is_chosen) << slot);
-        }
-        if chosen == 0 {
-            return;
-        }
-        let lift = self.times.lift(*vertices);
-        while chosen != 0 {
-            self.certify(t.corner(chosen.trailing_zeros() as usize), &lift, done);
-            chosen &= chosen - 1;
+        let crossing = facets & crossing_facets(self.room.left_and_right(vertices));
+        for (slot, twin) in twins.iter().enumerate() {
+            let is_crossing = crossing >> slot & 1 == 1;
+            list.push_if(t.corner(slot), is_crossing & self.room.contains(twin.tet()));
         }
     }
 
     /// Flip of Fig. 7: the flip that removes the triangle opposite corner `s`. Returns the new tetrahedra.
-    fn flip(
-        &mut self,
-        s: Corner,
-        signs: [Option<Sign>; 3],
-    ) -> Result<(FlipKind, Created), Refused> {
+    fn flip(&mut self, s: Corner, signs: Signs) -> Result<(Flip, Created), Refused> {
         if self.counts.flips() >= self.most_flips {
             return Err(Refused::Endless);
         }
@@ -402,79 +322,7 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
             }
             Flip::FourFour(..) => self.counts.four_four += 1,
         }
-        Ok((flip.kind(), created))
-    }
-
-    /// The second and third patch of §3.3, for rounded times, after a flip that created `created`.
-    fn patch_after_flip(&mut self, created: &[TetId]) {
-        self.restore_non_crossing(created);
-        let mut progress = true;
-        while progress {
-            progress = false;
-            for event in std::mem::take(&mut self.postponed) {
-                let Some(s) = event.corner_if_alive(self.mesh) else {
-                    self.tell(event.circuit, Fate::DroppedFromList);
-                    continue;
-                };
-                match self.flip(s, event.signs) {
-                    Ok((kind, created)) => {
-                        self.counts.performed_from_list += 1;
-                        self.tell(event.circuit, Fate::FlippedFromList(kind));
-                        self.certify_around(&created);
-                        self.restore_non_crossing(&created);
-                        progress = true;
-                    }
-                    Err(Refused::OutsideRegion) => {
-                        self.counts.discarded_outside += 1;
-                        self.tell(event.circuit, Fate::DroppedFromList);
-                    }
-                    Err(Refused::Impossible) => self.postponed.push(event),
-                    Err(Refused::Endless) => {}
-                }
-            }
-        }
-    }
-
-    /// The second patch: makes the triangles between non-crossing tetrahedra of R locally Delaunay, starting with those
-    /// of `created`. (Lawson's algorithm; it can get stuck, and then leaves the triangle.)
-    fn restore_non_crossing(&mut self, created: &[TetId]) {
-        if created.iter().all(|&t| self.crosses(t)) {
-            return;
-        }
-        let mut pending: Vec<TetId> = created.to_vec();
-        while let Some(t) = pending.pop() {
-            if !self.room.contains(t) || self.crosses(t) {
-                continue;
-            }
-            let bad = (0..4)
-                .map(|slot| t.corner(slot))
-                .find(|&s| self.is_bad_non_crossing(s));
-            let Some(s) = bad else { continue };
-            let circuit = event::circuit(self.mesh, s);
-            if let Ok((kind, created)) = self.flip(s, [None; 3]) {
-                self.tell(circuit, Fate::FlippedNonCrossing(kind));
-                self.counts.non_crossing += 1;
-                self.certify_around(&created);
-                pending.extend(created);
-            }
-        }
-    }
-
-    /// Whether both tetrahedra on a triangle are in R and non-crossing, and it is not locally Delaunay.
-    fn is_bad_non_crossing(&self, s: Corner) -> bool {
-        let n = self.mesh.neighbor(s);
-        let facet = self.mesh.facet(s);
-        if !self.room.contains(n) || self.crosses(n) || facet.iter().all(|&v| self.room.is_on(v)) {
-            return false;
-        }
-        let circuit = event::circuit(self.mesh, s);
-        self.points.insphere(circuit).is_positive()
-    }
-
-    /// Whether a tetrahedron of R has vertices on both sides of f.
-    fn crosses(&self, t: TetId) -> bool {
-        let [left, right] = self.room.left_and_right(&self.mesh.vertices(t));
-        left != 0 && right != 0
+        Ok((flip, created))
     }
 }
 

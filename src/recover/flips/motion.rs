@@ -104,7 +104,9 @@ impl<'a, P: PointStore> Motion<'a, P> {
 /// The positions and rates of a region's vertices in one number type, each computed once.
 pub(super) struct Rates<'a, P, N> {
     pub(super) motion: &'a Motion<'a, P>,
-    known: Vec<Option<(Vec3<N>, N)>>,
+    known: Vec<(Vec3<N>, N)>,
+    /// 1 + the place of each vertex there, by its number; 0 if it is not known. (Mostly few are asked for.)
+    places: Vec<u32>,
 }
 
 impl<'a, P: PointStore, N: Number> Rates<'a, P, N> {
@@ -112,26 +114,28 @@ impl<'a, P: PointStore, N: Number> Rates<'a, P, N> {
         Rates {
             motion,
             known: Vec::new(),
+            places: Vec::new(),
         }
     }
 
-    /// Makes sure that v is known, and gives its number.
+    /// Makes sure that v is known, and gives its place.
     fn know(&mut self, v: VertexId) -> usize {
         let number = self.motion.number(v);
-        if number >= self.known.len() {
-            self.known.resize(number + 1, None);
+        if number >= self.places.len() {
+            self.places.resize(number + 1, 0);
         }
-        if self.known[number].is_none() {
+        if self.places[number] == 0 {
             let position = self.motion.points.coordinates::<N>(v);
-            self.known[number] = Some((position, self.motion.rate(v)));
+            self.known.push((position, self.motion.rate(v)));
+            self.places[number] = self.known.len() as u32;
         }
-        number
+        (self.places[number] - 1) as usize
     }
 
     /// N and D of a circuit: S(τ) = N + τ·D.
     pub(super) fn evaluate(&mut self, circuit: [VertexId; 5]) -> (N, N) {
-        let numbers = circuit.map(|v| self.know(v));
-        let of = |i: usize| self.known[numbers[i]].as_ref().expect("just made known");
+        let places = circuit.map(|v| self.know(v));
+        let of = |i: usize| &self.known[places[i]];
         let [x, y, z, w] = [1, 2, 3, 4].map(|i: usize| of(i).0.sub(&of(0).0));
         let lifted = Lifted::new([&x, &y, &z]);
         let below = |[hx, hy, hz, hw]: [N; 4]| {

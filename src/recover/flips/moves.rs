@@ -1,7 +1,7 @@
 //! The bistellar flips of a tetrahedralization: 2-3, 3-2, 4-4 (Shewchuk 2003).
 
-use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId, slot_of};
-use crate::number::Sign;
+use super::event::Signs;
+use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId, behind};
 use crate::predicate::PointStore;
 use arrayvec::ArrayVec;
 
@@ -47,6 +47,16 @@ impl Flip {
         }
     }
 
+    /// Which facets of each new tetrahedron are on the boundary of the flipped volume, by the bits of the opposite corners.
+    #[inline]
+    pub(super) fn outer_facets(&self) -> [u8; 4] {
+        match self {
+            Flip::TwoThree(..) => TetMesh::OUTER_OF_THREE,
+            Flip::ThreeTwo(..) => TetMesh::OUTER_OF_TWO,
+            Flip::FourFour(..) => TetMesh::OUTER_OF_FOUR,
+        }
+    }
+
     /// The edge that is removed, in ascending order, and for a 4-4 flip the end of the new edge with the smaller id, as an
     /// edge with four tetrahedra can be flipped in two planes. `None` for 2-3 flips.
     pub fn edge(&self) -> Option<[VertexId; 3]> {
@@ -58,11 +68,21 @@ impl Flip {
     }
 
     /// Does it. Returns the new tetrahedra.
+    #[inline]
     pub fn perform(&self, mesh: &mut TetMesh) -> ArrayVec<TetId, 4> {
         let mut created = ArrayVec::new();
         match *self {
-            Flip::TwoThree(old, vertices) => created.extend(mesh.two_to_three(old, vertices)),
-            Flip::ThreeTwo(old, vertices) => created.extend(mesh.three_to_two(old, vertices)),
+            Flip::TwoThree(old, vertices) => {
+                let [a, b, c] = mesh.two_to_three(old, vertices);
+                created.push(a);
+                created.push(b);
+                created.push(c);
+            }
+            Flip::ThreeTwo(old, vertices) => {
+                let [a, b] = mesh.three_to_two(old, vertices);
+                created.push(a);
+                created.push(b);
+            }
             Flip::FourFour(old, vertices) => created.extend(mesh.four_to_four(old, vertices)),
         }
         created
@@ -72,6 +92,31 @@ impl Flip {
 /// What a 2-3 flip of the triangle xyz would create: vxyz with w in place of x, of y, of z.
 fn around_new_edge([v, x, y, z, w]: [VertexId; 5]) -> [[VertexId; 4]; 3] {
     [[v, w, y, z], [v, x, w, z], [v, x, y, w]]
+}
+
+/// Whether there is a flip that removes the triangle opposite corner `c`, if no sign is zero: what [`flip_of_triangle`] says,
+/// without a branch.
+#[inline(always)]
+pub(super) fn is_flippable(mesh: &TetMesh, c: Corner, negative: u8) -> bool {
+    let twin = mesh.twin(c);
+    let (old1, old2) = (mesh.tet(c.tet()), mesh.tet(twin.tet()));
+    let not_inside = !negative & 0b111;
+    let is_one = not_inside & not_inside.wrapping_sub(1) == 0;
+    // If there is one, it; else any.
+    let slot = FACET[c.slot()][usize::from(not_inside >> 1).min(2)];
+    let (behind1, behind2) = (old1.1[slot], behind(old2, old1.0[slot]));
+    let is_third = (behind1.tet() == behind2.tet()) & (mesh.vertex(behind1) == old2.0[twin.slot()]);
+    is_one & ((not_inside == 0) | is_third)
+}
+
+/// The signs of c_x, c_y, c_z, of which some are known.
+fn all_signs<P: PointStore>(points: &P, circuit: [VertexId; 5], mut signs: Signs) -> Signs {
+    for (i, tet) in around_new_edge(circuit).into_iter().enumerate() {
+        if signs.known() >> i & 1 == 0 {
+            signs.set(i, -points.orient3d(tet));
+        }
+    }
+    signs
 }
 
 /// The flip that removes the triangle xyz opposite corner `c`, between vxyz and wxzy, or `None` if there is none: the
@@ -87,7 +132,7 @@ pub fn flip_of_triangle<P: PointStore>(
     points: &P,
     mesh: &TetMesh,
     c: Corner,
-    signs: [Option<Sign>; 3],
+    mut signs: Signs,
 ) -> Option<Flip> {
     let (t1, twin) = (c.tet(), mesh.twin(c));
     let (old1, old2) = (mesh.tet(t1), mesh.tet(twin.tet()));
@@ -96,26 +141,24 @@ pub fn flip_of_triangle<P: PointStore>(
     let facet = [old1.0[slots[0]], old1.0[slots[1]], old1.0[slots[2]]];
     let [x, y, z] = facet;
     let circuit = [v, x, y, z, w];
-    let inside = |i: usize| match signs[i] {
-        Some(sign) => sign,
-        None => -points.orient3d(around_new_edge(circuit)[i]),
-    };
-    let signs = [inside(0), inside(1), inside(2)];
-    let not_inside = |i: usize| u8::from(!signs[i].is_negative());
-    let i = match not_inside(0) | not_inside(1) << 1 | not_inside(2) << 2 {
-        0 => return Some(Flip::TwoThree([t1, twin.tet()], circuit)),
-        1 => 0,
-        2 => 1,
-        4 => 2,
-        _ => return None,
-    };
+    if signs.known() != 0b111 {
+        signs = all_signs(points, circuit, signs);
+    }
+    let not_inside = !signs.negative & 0b111;
+    if not_inside == 0 {
+        return Some(Flip::TwoThree([t1, twin.tet()], circuit));
+    }
+    if !not_inside.is_power_of_two() {
+        return None;
+    }
+    let i = usize::from(not_inside >> 1);
     let t2 = twin.tet();
     // The edge pq that is not passed inside, and the third vertex of the triangle.
     let r = facet[i];
     let [p, q] = [facet[(i + 1) % 3], facet[(i + 2) % 3]];
-    let (behind1, behind2) = (old1.1[slots[i]], old2.1[slot_of(old2.0, r)]);
+    let (behind1, behind2) = (old1.1[slots[i]], behind(old2, r));
     let (t3, t4) = (behind1.tet(), behind2.tet());
-    if signs[i].is_positive() {
+    if signs.zero == 0 {
         // The vertex of the third tetrahedron that is not in the first: one tetrahedron may stand for several that are outside
         // of a copy of a region.
         let is_third = t3 == t4 && mesh.vertex(behind1) == w;

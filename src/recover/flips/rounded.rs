@@ -1,11 +1,13 @@
 //! Flip times as rounded quotients: the paper's own method, which can fail.
 
-use super::filter::{Filter, LiftedTet};
+use super::event::Signs;
+use super::filter::{Filter, Moving};
 use super::motion::{Motion, Rates};
 use super::time::{FlipTimes, Timed, Timing, Undecided};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Float, Sign};
+use crate::number::{Dyadic, Exact, Float, Sign, Vec3};
 use crate::predicate::PointStore;
+use crate::predicate::formula::Lifted;
 use std::cmp::Ordering;
 
 /// Times as rounded quotients, ties in order of arrival.
@@ -42,19 +44,43 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
 
     /// N and D, if D > 0.
     #[inline]
-    fn positive(&mut self, lift: &LiftedTet, circuit: [VertexId; 5]) -> Option<(N, N)> {
+    fn positive(&mut self, tet: [VertexId; 4], circuit: [VertexId; 5]) -> Option<(N, N)> {
         if self.naive {
             let (n, d) = self.rates.evaluate(circuit);
             return (d.sign() == Some(Sign::Positive)).then_some((n, d));
         }
-        let across = self.filter.across(lift, circuit[4])?;
-        if !across.d.is_positive() && !self.exact.evaluate(circuit).1.exact_sign().is_positive() {
+        let rising = self.filter.rising(circuit)?;
+        if !rising.d.is_positive() && !self.exact.evaluate(circuit).1.exact_sign().is_positive() {
             return None;
         }
-        // The filter's values are what plain doubles give: the same operations in the same order, the origin apart.
-        let [n, d] = self.filter.plain(lift, &across);
+        let [n, d] = self.plain(tet, circuit[4]);
         let computed = N::computed(n).zip(N::computed(d));
         Some(computed.unwrap_or_else(|| self.rates.evaluate(circuit)))
+    }
+
+    /// N and D in plain doubles: the operations of [`Rates::evaluate`] in the same order, the origin apart.
+    #[inline]
+    fn plain(&mut self, tet: [VertexId; 4], apex: VertexId) -> [f64; 2] {
+        let [a, b, c, d] = tet;
+        let [origin, x, y, z, w] = [a, b, c, d, apex].map(|v| self.filter.vertex(v));
+        let relative = |p: &Moving| {
+            let difference = |i: usize| p.0[i] - origin.0[i];
+            (
+                Vec3([difference(0), difference(1), difference(2)]),
+                difference(3),
+            )
+        };
+        let [x, y, z, w] = [relative(&x), relative(&y), relative(&z), relative(&w)];
+        let lifted = Lifted::new([&x.0, &y.0, &z.0]);
+        let below = |heights: [f64; 3], height: f64| {
+            let gradient = lifted.gradient(heights.each_ref());
+            lifted.below(&gradient, &w.0, &height)
+        };
+        let square = |p: &Vec3<f64>| p.dot(p);
+        [
+            below([square(&x.0), square(&y.0), square(&z.0)], square(&w.0)),
+            below([x.1, y.1, z.1], w.1),
+        ]
     }
 }
 
@@ -63,21 +89,14 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
     type Time = N;
     const EXACT: bool = false;
 
-    type Lift = LiftedTet;
-
-    #[inline]
-    fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
-        self.filter.lift(tet)
-    }
-
     #[inline]
     fn time_across(
         &mut self,
-        lift: &LiftedTet,
+        tet: [VertexId; 4],
         circuit: [VertexId; 5],
-        _: impl FnOnce([Option<Sign>; 3]) -> bool,
+        _: impl FnOnce(Signs, bool) -> bool,
     ) -> Option<Timing<f64, N>> {
-        let (n, d) = self.positive(lift, circuit)?;
+        let (n, d) = self.positive(tet, circuit)?;
         let Some(time) = N::negated_quotient(&n, &d) else {
             self.overflows += 1;
             return None;
@@ -86,7 +105,7 @@ impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
             key: time.to_f64(),
             time,
             // What is possible is asked when the time has come.
-            signs: [None; 3],
+            signs: Signs::UNKNOWN,
         })
     }
 

@@ -20,8 +20,8 @@
 //! is positive, where c = 0 for a vertex that is not among the five. If all vanish then the two circuits are the same
 //! up to a factor, which happens only for two triangles of one 4-to-4 flip: they are one event.
 
-use super::event::Event;
-use super::filter::{Filter, LiftedTet};
+use super::event::{Event, Signs};
+use super::filter::Filter;
 use super::motion::{Motion, Rates};
 use crate::mesh::VertexId;
 pub use crate::number::Float;
@@ -41,28 +41,23 @@ pub trait FlipTimes {
     /// number type cannot hold the time.
     fn time(&mut self, circuit: [VertexId; 5]) -> Option<Timing<Self::Key, Self::Time>> {
         let [v, x, y, z, _] = circuit;
-        let lift = self.lift([v, x, y, z]);
-        self.time_across(&lift, circuit, |_| true)
+        self.time_across([v, x, y, z], circuit, |_, may_rise| may_rise)
     }
-
-    /// What the times of a tetrahedron's facets have in common.
-    type Lift;
-
-    /// Prepares [`FlipTimes::time_across`] for the facets of a tetrahedron.
-    fn lift(&mut self, tet: [VertexId; 4]) -> Self::Lift;
 
     /// Lets the processor fetch what is known of a vertex that will be lifted soon.
     fn prefetch(&self, v: VertexId) {
         let _ = v;
     }
 
-    /// The time of a triangle of the lifted tetrahedron, vxyz up to an even permutation. Exact orders ask, before they
-    /// compute the quotient, whether the time is of interest, given the signs of c_x, c_y, c_z where they are known.
+    /// The same for a triangle of the given tetrahedron, vxyz up to an even permutation, on which rounding may depend. Exact
+    /// orders ask, before they compute the quotient, whether the time is of interest, given the signs of c_x, c_y, c_z where
+    /// they are known, and whether D may be positive: if not, the answer must be `false`. (One question for both, because
+    /// neither answer can be foretold, and a branch that is foretold wrongly takes as long as much of the evaluation.)
     fn time_across(
         &mut self,
-        lift: &Self::Lift,
+        tet: [VertexId; 4],
         circuit: [VertexId; 5],
-        is_wanted: impl FnOnce([Option<Sign>; 3]) -> bool,
+        is_wanted: impl FnOnce(Signs, bool) -> bool,
     ) -> Option<Timing<Self::Key, Self::Time>>;
 
     /// About when a time is, to sort by before comparing; `None` if keys do not tell.
@@ -89,7 +84,7 @@ pub struct Timing<K, T> {
     /// For the others.
     pub time: T,
     /// The signs of the circuit's coefficients c_x, c_y, c_z, where they are known.
-    pub signs: [Option<Sign>; 3],
+    pub signs: Signs,
 }
 
 /// An event and its time, to be compared.
@@ -151,9 +146,7 @@ impl<'a, P: PointStore, N: Exact> ExactTimes<'a, P, N> {
 
     /// N and D, if D > 0: the sign of D is found in floats if they are certain of it.
     pub fn quotient(&mut self, circuit: [VertexId; 5]) -> Option<Quotient<N>> {
-        let [v, x, y, z, w] = circuit;
-        let lift = self.filter.lift([v, x, y, z]);
-        self.filter.across(&lift, w)?;
+        self.filter.rising(circuit)?;
         self.exact_quotient(circuit)
     }
 
@@ -228,21 +221,15 @@ impl<P: PointStore, N: Exact> FlipTimes for ExactTimes<'_, P, N> {
     type Time = Quotient<N>;
     const EXACT: bool = true;
 
-    type Lift = LiftedTet;
-
-    fn lift(&mut self, tet: [VertexId; 4]) -> LiftedTet {
-        self.filter.lift(tet)
-    }
-
     fn time_across(
         &mut self,
-        lift: &LiftedTet,
+        _: [VertexId; 4],
         circuit: [VertexId; 5],
-        is_wanted: impl FnOnce([Option<Sign>; 3]) -> bool,
+        is_wanted: impl FnOnce(Signs, bool) -> bool,
     ) -> Option<Timing<(), Quotient<N>>> {
-        let across = self.filter.across(lift, circuit[4])?;
-        let signs = self.filter.signs(lift, &across, circuit);
-        if !is_wanted(signs) {
+        let rising = self.filter.rising(circuit)?;
+        let signs = self.filter.signs(&rising);
+        if !is_wanted(signs, true) {
             return None;
         }
         let time = self.exact_quotient(circuit)?;

@@ -1,11 +1,12 @@
 //! Rounded times whose number of mantissa bits is known only at run time. A time of any width is kept as its exact value,
 //! so that the insertion is compiled once, and only the polynomials for every width.
 
+use super::event::Signs;
 use super::motion::Motion;
 use super::rounded::RoundedTimes;
 use super::time::{FlipTimes, Timed, Timing, Undecided};
 use crate::mesh::VertexId;
-use crate::number::{Bits, Dyadic, Sign, Wide, WidthTask};
+use crate::number::{Bits, Dyadic, Wide, WidthTask};
 use crate::predicate::PointStore;
 use std::cmp::Ordering;
 
@@ -63,21 +64,18 @@ impl FlipTimes for WideTimes<'_> {
     /// Doubles would not tell times of more bits, or with larger exponents, apart.
     type Key = ();
     type Time = Dyadic;
-    type Lift = ();
     const EXACT: bool = false;
-
-    fn lift(&mut self, _: [VertexId; 4]) {}
 
     fn time_across(
         &mut self,
-        (): &(),
+        _: [VertexId; 4],
         circuit: [VertexId; 5],
-        _: impl FnOnce([Option<Sign>; 3]) -> bool,
+        _: impl FnOnce(Signs, bool) -> bool,
     ) -> Option<Timing<(), Dyadic>> {
         self.0.time(circuit).map(|time| Timing {
             key: (),
             time,
-            signs: [None; 3],
+            signs: Signs::UNKNOWN,
         })
     }
 

@@ -3,13 +3,15 @@
 //!
 //! Times only go forward, so that the far future need not be in order yet. It is divided into *spans*, each of which begins
 //! at the time of some event. When its turn comes, a span is divided further, if it is long, or else sorted: that is a *run*,
-//! and the beginning of the next span is the *horizon*. Events queued since that are not after the horizon are in a binary
-//! heap; it stays small, and most events are sorted with their span, not sifted.
+//! and the beginning of the next span is the *horizon*. Events queued since that are not after the horizon are put into their
+//! places in the run or, while that is long, or keys do not tell about when a time is, into a binary heap.
 //!
 //! An event is put into a span only if its key says for certain that it comes after the beginning, and the beginnings are in
 //! order for certain, so that it also comes after those of all earlier spans; and one leaves the
 //! run or the heap only if its key says for certain that it comes before the horizon; else the horizon moves on. So the
 //! order is that of one heap.
+
+mod sorting;
 
 use super::event::Event;
 use super::time::{FlipTimes, Timing};
@@ -17,10 +19,13 @@ use crate::machine::prefetch;
 use std::cmp::Ordering;
 
 /// A span of at most so many events is not divided further.
-const SHORT_SPAN: usize = 400;
+const SHORT_SPAN: usize = 256;
 
 /// About how many events a span is to have.
-const SPAN: usize = 200;
+const SPAN: usize = 128;
+
+/// Into a run of so many events no further ones are put: that moves what comes after them.
+const LONG_RUN: usize = 512;
 
 /// Into how many spans one is divided at most.
 const MOST_SPANS: usize = 64;
@@ -95,6 +100,14 @@ impl<C: FlipTimes> FlipQueue<C> {
         }
     }
 
+    /// Room for so many events at a time without further allocation.
+    pub(super) fn reserve(&mut self, n: usize) {
+        self.events.reserve(n);
+        if let Some(span) = self.spans.first_mut() {
+            span.entries.reserve(n);
+        }
+    }
+
     /// The number of events that have been queued so far.
     pub fn arrived(&self) -> u64 {
         u64::from(self.arrived)
@@ -133,11 +146,48 @@ impl<C: FlipTimes> FlipQueue<C> {
         let entry = self.keep(timing.key, queued);
         match self.latest_span_of(timing.key, 0) {
             Some(span) => self.spans[span].entries.push(entry),
+            None if self.run.len() < LONG_RUN && C::about(timing.key).is_some() => {
+                self.insert_in_run(times, entry);
+            }
             None => {
                 self.heap.push(entry);
                 self.sift_up(times, self.heap.len() - 1, entry);
             }
         }
+    }
+
+    /// Puts an entry into its place in the run: where it belongs by what its time is about, unless its neighbours there say
+    /// otherwise.
+    fn insert_in_run(&mut self, times: &mut C, entry: Entry<C::Key>) {
+        let time = self.about(entry.key);
+        let is_later = |other: &Entry<C::Key>| self.about(other.key) > time;
+        let mut place = self.run.partition_point(is_later);
+        let fits = self
+            .run
+            .get(place)
+            .copied()
+            .is_none_or(|next| self.precedes(times, next, entry))
+            && (place == 0 || self.precedes(times, entry, self.run[place - 1]));
+        if !fits {
+            let (mut low, mut high) = (0, self.run.len());
+            while low < high {
+                let middle = (low + high) / 2;
+                if self.precedes(times, entry, self.run[middle]) {
+                    low = middle + 1;
+                } else {
+                    high = middle;
+                }
+            }
+            place = low;
+        }
+        self.run.insert(place, entry);
+    }
+
+    /// About when a time is, negated in a queue that gives the latest first. Anything if keys do not tell.
+    #[inline(always)]
+    fn about(&self, key: C::Key) -> f64 {
+        let about = C::about(key).unwrap_or_default();
+        if self.latest_first { -about } else { about }
     }
 
     /// Gives an event a place.
@@ -170,23 +220,17 @@ impl<C: FlipTimes> FlipQueue<C> {
     /// The latest of the spans from `first` on that a key belongs to for certain.
     #[inline]
     fn latest_span_of(&mut self, key: C::Key, first: usize) -> Option<usize> {
-        // Any span will do after whose beginning the key comes, so it does not matter if certainty is not monotonous.
-        let (mut low, mut high) = (first, self.spans.len());
-        let mut found = None;
-        while low < high {
-            let middle = (low + high) / 2;
-            let after = match self.spans[middle].beginning {
-                None => true,
-                Some(beginning) => self.is_certain(key, Ordering::Greater, beginning),
-            };
-            if after {
-                found = Some(middle);
-                high = middle;
-            } else {
-                low = middle + 1;
-            }
-        }
-        found
+        let time = self.about(key);
+        let begins_later = |span: &Span<C::Key>| {
+            let beginning = span.beginning;
+            beginning.is_some_and(|beginning| self.about(beginning) > time)
+        };
+        let likely = self.spans[first..].partition_point(begins_later);
+        // Any span will do after whose beginning the key comes.
+        (first + likely..self.spans.len()).find(|&span| match self.spans[span].beginning {
+            None => true,
+            Some(beginning) => self.is_certain(key, Ordering::Greater, beginning),
+        })
     }
 
     /// Makes a run of the next span, until the first event of the run and the heap comes before the next one.
@@ -234,7 +278,7 @@ impl<C: FlipTimes> FlipQueue<C> {
             }
         }
         let first = self.spans.len();
-        let entries = || Vec::with_capacity(2 * SPAN);
+        let entries = || Vec::with_capacity(SPAN + SPAN / 2);
         self.spans
             .extend(beginnings.into_iter().rev().map(|key| Span {
                 beginning: Some(key),
@@ -257,87 +301,6 @@ impl<C: FlipTimes> FlipQueue<C> {
             self.spans.truncate(first);
         }
         is_divided
-    }
-
-    /// Sorts the run: into buckets by what its times are about, if that is known, and then by moving what is not in its
-    /// place. Where that is too much, by comparisons alone.
-    fn sort_run(&mut self, times: &mut C) {
-        let mut run = std::mem::take(&mut self.run);
-        let is_sorted = self.distribute(&mut run) && self.move_into_place(times, &mut run)
-            || sort_by_about::<C>(&mut run, self.latest_first)
-                && self.move_into_place(times, &mut run);
-        if !is_sorted {
-            run.sort_unstable_by(|&a, &b| {
-                if self.precedes(times, a, b) {
-                    Ordering::Greater
-                } else {
-                    Ordering::Less
-                }
-            });
-        }
-        self.run = run;
-    }
-
-    /// Brings a run into the order of as many buckets as it has entries, which divide its time evenly. `false` if it has no
-    /// times to divide.
-    fn distribute(&mut self, run: &mut Vec<Entry<C::Key>>) -> bool {
-        if run.len() < 2 {
-            return true;
-        }
-        let sign = if self.latest_first { -1.0 } else { 1.0 };
-        let about = |entry: &Entry<C::Key>| C::about(entry.key).map_or(f64::NAN, |t| sign * t);
-        let (mut first, mut last) = (f64::INFINITY, f64::NEG_INFINITY);
-        for entry in &*run {
-            let time = about(entry);
-            if !time.is_finite() {
-                return false;
-            }
-            first = first.min(time);
-            last = last.max(time);
-        }
-        let scale = run.len() as f64 / (last - first);
-        if !scale.is_finite() {
-            return false;
-        }
-        // The last comes first.
-        let most = run.len() - 1;
-        let bucket = |entry: &Entry<C::Key>| (((last - about(entry)) * scale) as usize).min(most);
-        self.buckets.clear();
-        self.buckets.resize(run.len(), 0);
-        for entry in &*run {
-            self.buckets[bucket(entry)] += 1;
-        }
-        let mut start = 0;
-        for n in &mut self.buckets {
-            start += std::mem::replace(n, start);
-        }
-        self.sorted.clear();
-        self.sorted.extend_from_slice(run);
-        for &entry in &self.sorted {
-            let place = &mut self.buckets[bucket(&entry)];
-            run[*place as usize] = entry;
-            *place += 1;
-        }
-        true
-    }
-
-    /// Moves what is not in its place in a run that is nearly in order. Gives up where that is too much, and says so.
-    fn move_into_place(&mut self, times: &mut C, run: &mut [Entry<C::Key>]) -> bool {
-        let mut moves = 0;
-        for i in 1..run.len() {
-            let entry = run[i];
-            let mut hole = i;
-            while hole > 0 && self.precedes(times, run[hole - 1], entry) {
-                run[hole] = run[hole - 1];
-                hole -= 1;
-            }
-            run[hole] = entry;
-            moves += i - hole;
-            if moves > 2 * run.len() {
-                return false;
-            }
-        }
-        true
     }
 
     /// Removes the first event.
@@ -420,28 +383,12 @@ impl<C: FlipTimes> FlipQueue<C> {
     }
 }
 
-/// Sorts a run by what its times are about. `false` if that is not known.
-fn sort_by_about<C: FlipTimes>(run: &mut [Entry<C::Key>], latest_first: bool) -> bool {
-    let about = |entry: &Entry<C::Key>| C::about(entry.key);
-    if run.first().is_some_and(|first| about(first).is_none()) {
-        return false;
-    }
-    run.sort_unstable_by(|a, b| {
-        let (a, b) = (about(a).unwrap_or(0.0), about(b).unwrap_or(0.0));
-        b.total_cmp(&a)
-    });
-    if latest_first {
-        run.reverse();
-    }
-    true
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::event::Signs;
     use super::super::time::{Timed, Undecided};
     use super::*;
     use crate::mesh::{TetId, VertexId};
-    use crate::number::Sign;
 
     /// Times that are plain integers.
     struct Integers;
@@ -450,13 +397,11 @@ mod tests {
         type Key = i32;
         type Time = ();
         const EXACT: bool = true;
-        type Lift = ();
-        fn lift(&mut self, _: [VertexId; 4]) {}
         fn time_across(
             &mut self,
-            (): &(),
+            _: [VertexId; 4],
             _: [VertexId; 5],
-            _: impl FnOnce([Option<Sign>; 3]) -> bool,
+            _: impl FnOnce(Signs, bool) -> bool,
         ) -> Option<Timing<i32, ()>> {
             None
         }
@@ -481,12 +426,12 @@ mod tests {
             let event = Event {
                 circuit: [VertexId(0); 5],
                 tet: TetId(arrival),
-                signs: [None; 3],
+                signs: Signs::UNKNOWN,
             };
             let timing = Timing {
                 key: time(arrival),
                 time: (),
-                signs: [None; 3],
+                signs: Signs::UNKNOWN,
             };
             queue.push(&mut Integers, event, timing);
         };
