@@ -35,6 +35,15 @@ pub(super) struct Recovered {
     pub(super) subsegments: Subsegments,
 }
 
+/// What insertions have changed.
+#[derive(Clone, Debug, Default)]
+pub struct Changes {
+    /// All vertices whose stars have changed.
+    pub touched: FxHashSet<VertexId>,
+    /// All edges that have vanished, and all subsegments that have been split.
+    pub vanished: Vec<[VertexId; 2]>,
+}
+
 /// Where Steiner points are put.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Placement {
@@ -78,8 +87,8 @@ pub(super) struct SegmentRecovery<'a, P> {
     crossing: Crossing,
     lost: Vec<[VertexId; 2]>,
     zone: Stamps,
-    /// The vertices whose stars have changed, if that is of interest.
-    pub(super) touched: Option<FxHashSet<VertexId>>,
+    /// What has changed, if that is of interest.
+    pub(super) changes: Option<Changes>,
 }
 
 impl<'a, P: PointStore> SegmentRecovery<'a, P> {
@@ -101,7 +110,7 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
             crossing: Crossing::default(),
             lost: Vec::new(),
             zone: Stamps::default(),
-            touched: None,
+            changes: None,
         }
     }
 
@@ -264,6 +273,9 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
         if !self.insert(v) {
             return Err(self.too_short(ends));
         }
+        if let Some(changes) = &mut self.changes {
+            changes.vanished.push([a, b]);
+        }
         let (from_a, from_b) = self.created_edges(a, b);
         let [to_a, to_b] = self.subsegments.split(s, [a, b], t, v);
         for ([a, b], is_there) in [(to_a, from_a), (to_b, from_b)] {
@@ -296,10 +308,19 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
         }
         self.delaunay.find_conflicts(self.points, v, start);
         self.queue_lost();
-        if let Some(touched) = &mut self.touched {
+        if let Some(changes) = &mut self.changes {
             let (mesh, zone) = (&self.delaunay.mesh, self.delaunay.conflicts());
-            touched.extend(zone.iter().flat_map(|&t| mesh.vertices(t)));
-            touched.insert(v);
+            let touched = zone.iter().flat_map(|&t| mesh.vertices(t)).chain([v]);
+            changes.touched.extend(touched);
+            inner_edges(
+                mesh,
+                zone,
+                |t: TetId| self.zone.contains(t.index()),
+                |_| true,
+                (),
+                |(), _| Some(()),
+                |edge, ()| changes.vanished.push(edge),
+            );
         }
         self.delaunay.replace_conflicts(v);
         let created = self.delaunay.created();

@@ -17,6 +17,7 @@
 //! (`harmless.rs`). In the end, points that turn out unnecessary are removed (`prune.rs`).
 
 use super::race::recover_thriftily;
+pub use super::recovery::Changes;
 use super::recovery::{Placement, Recovered, SegmentRecovery};
 use super::scout::{Scouted, scout};
 pub use super::segment_index::SegmentIndex;
@@ -26,7 +27,6 @@ use crate::error::Failure;
 use crate::mesh::{Incidence, VertexId};
 use crate::plc::Complex;
 use crate::predicate::PointStore;
-use rustc_hash::FxHashSet;
 
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
 ///
@@ -76,8 +76,8 @@ pub enum Request {
 pub struct Added {
     /// For each request the new vertex, or `None` if there is a vertex already, or the subsegment is no more.
     pub vertices: Vec<Option<VertexId>>,
-    /// All vertices whose stars have changed.
-    pub touched: FxHashSet<VertexId>,
+    /// What their insertion has changed.
+    pub changes: Changes,
 }
 
 /// Inserts more Steiner points, and those with which segments are recovered that these destroy, into a Delaunay
@@ -98,18 +98,18 @@ pub fn add_steiner_points<P: PointStore>(
         subsegments: std::mem::take(subsegments),
     };
     let mut recovery = SegmentRecovery::new(points, start, Placement::ByRules);
-    recovery.touched = Some(FxHashSet::default());
+    recovery.changes = Some(Changes::default());
     let requests = requests.iter();
     let vertices: Result<Vec<_>, Failure> = requests.map(|&r| recovery.add(r)).collect();
     let recovered =
         vertices.and_then(|vertices| recovery.recover_down_to(0.0, usize::MAX).map(|_| vertices));
-    let touched = recovery.touched.take().unwrap_or_default();
+    let changes = recovery.changes.take().unwrap_or_default();
     let end = recovery.finish();
     *delaunay = end.delaunay;
     *subsegments = end.subsegments;
     *incidence = end.incidence;
     Ok(Added {
         vertices: recovered?,
-        touched,
+        changes,
     })
 }
