@@ -79,7 +79,7 @@ impl<P: PointStore> Race<'_, P> {
                 Err(failure) => return self.harmless_alone(failure),
             }
             let by_rules = self.rules.bound();
-            if !waits && bound > by_rules + by_rules / 8 + NOISE {
+            if !waits && bound > by_rules + by_rules / 16 + NOISE {
                 return self.rules_alone();
             }
         }
