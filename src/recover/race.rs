@@ -120,3 +120,80 @@ fn is_too_short(failure: &Failure) -> bool {
         Failure::GaveUp(SegmentTooShort { .. } | SegmentsTooClose { .. })
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::delaunay;
+    use crate::mesh::Incidence;
+    use crate::plc::{Complex, Segment};
+    use crate::predicate::DoublePoints;
+    use crate::recover::segments::{SegmentIndex, Subsegments};
+
+    /// Layers of parallel rods, those of each across those of the one below.
+    fn rods(n: u32) -> (DoublePoints, Complex) {
+        let (mut vertices, mut segments) = (Vec::new(), Vec::new());
+        for (layer, i) in (0..4u32).flat_map(|layer| (0..n).map(move |i| (layer, i))) {
+            let (at, z) = (
+                f64::from(i) + 0.1 * f64::from((i * i + layer) % 5),
+                0.35 * f64::from(layer),
+            );
+            for end in [-0.5, f64::from(n) + 0.25 * f64::from((i + layer) % 3)] {
+                vertices.push(if layer % 2 == 0 {
+                    [end, at, z]
+                } else {
+                    [at, end, z]
+                });
+            }
+            let ends = [vertices.len() - 2, vertices.len() - 1].map(VertexId::new);
+            segments.push(Segment { ends, marker: 0 });
+        }
+        let complex = Complex {
+            segments,
+            ..Complex::default()
+        };
+        (DoublePoints::new(vertices), complex)
+    }
+
+    #[test]
+    fn the_result_is_that_of_the_better_one() {
+        for n in [4, 9, 14] {
+            let (points, complex) = rods(n);
+            let all: Vec<VertexId> = (0..points.len()).map(VertexId::new).collect();
+            let delaunay = delaunay(&points, &all).expect("rods in space");
+            let incidence = Incidence::new(&delaunay.mesh, points.len());
+            let is_missing =
+                |&[a, b]: &[VertexId; 2]| incidence.tet_at_edge(&delaunay.mesh, a, b).is_none();
+            let subsegments = Subsegments::new(&complex, SegmentIndex::new(&complex), points.len());
+            let missing: Vec<[VertexId; 2]> = subsegments.all_ends().filter(is_missing).collect();
+            assert!(!missing.is_empty());
+            let start = Recovered {
+                incidence: incidence.clone(),
+                delaunay: delaunay.clone(),
+                subsegments,
+            };
+            let alone = |placement| {
+                let mut points = points.clone();
+                let mut recovery = SegmentRecovery::new(&mut points, start.clone(), placement);
+                recovery.enqueue_all(&missing);
+                assert_eq!(recovery.recover_down_to(0.0, usize::MAX), Ok(true));
+                recovery.bound()
+            };
+            let both = [Placement::ByRules, Placement::Harmless].map(alone);
+            let end = recover_thriftily(&mut points.clone(), start.clone(), &missing);
+            let end = end.expect("rods do not touch");
+            let count = end.subsegments.steiner_count();
+            assert!(
+                both.contains(&count) && count <= both[0],
+                "{count}, {both:?}"
+            );
+            for s in 0..complex.segments.len() as u32 {
+                let chain: Vec<VertexId> = end.subsegments.chain(s).collect();
+                for w in chain.windows(2) {
+                    let found = end.incidence.tet_at_edge(&end.delaunay.mesh, w[0], w[1]);
+                    assert!(found.is_some(), "a subsegment is missing");
+                }
+            }
+        }
+    }
+}
