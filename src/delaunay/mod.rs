@@ -11,6 +11,7 @@
 
 mod build;
 mod insert;
+mod large;
 mod order;
 mod parallel;
 mod removal;

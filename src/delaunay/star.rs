@@ -4,10 +4,10 @@
 //! other side has the reversed edge: a table by pairs of vertices finds it (as in Marot, Pellerin & Remacle 2019). The
 //! vertices of a boundary, about 16 of them, are numbered from 0 in order of appearance, by a sparse set (Briggs & Torczon
 //! 1993), which needs no clearing, so that the table is small and stays in the nearest cache. Boundaries of more vertices
-//! than it has rows use a hash table.
+//! than it has rows use a larger one (`large.rs`).
 
+use super::large::Large;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
-use rustc_hash::FxHashMap;
 
 /// The largest number of vertices of a boundary for which the table is used; a power of two.
 const ROWS: usize = 64;
@@ -23,6 +23,8 @@ pub(super) struct Star {
     /// For the directed edge from the vertex with number i to that with number j, at ROWS·i + j, the new corner opposite
     /// the facet that it spans with the new vertex. What is not on this boundary is left over from others.
     opposite: Box<[Corner; ROWS * ROWS]>,
+    /// In place of the table, for boundaries of more vertices.
+    large: Large,
 }
 
 /// A facet of the conflict zone's boundary, seen from inside.
@@ -62,6 +64,7 @@ impl Default for Star {
             members: [VertexId::INFINITE; ROWS],
             count: 0,
             opposite: Box::new([Corner::NONE; ROWS * ROWS]),
+            large: Large::default(),
         }
     }
 }
@@ -86,7 +89,7 @@ impl Star {
             self.opposite[place(i, j)] = t.corner(3);
         }
         if self.count > ROWS {
-            return fill_large(mesh, p, boundary, new);
+            return self.fill_large(mesh, p, boundary, new);
         }
         for (facet, &t) in boundary.iter().zip(new) {
             let [i, j, k] = facet.numbers;
@@ -96,6 +99,25 @@ impl Star {
                 self.opposite[place(j, i)],
             ];
             let [a, b, c] = facet.vertices;
+            mesh.overwrite(t, [p, a, b, c], [facet.outside, x, y, z]);
+            mesh.set_twin(facet.outside, t.corner(0));
+        }
+    }
+
+    /// [`Star::fill`] for boundaries of many vertices.
+    #[cold]
+    fn fill_large(
+        &mut self,
+        mesh: &mut TetMesh,
+        p: VertexId,
+        boundary: &[BoundaryFacet],
+        new: &[TetId],
+    ) {
+        let facets = boundary.iter().map(|facet| facet.vertices);
+        self.large.fill(facets, new);
+        for (n, (facet, &t)) in boundary.iter().zip(new).enumerate() {
+            let [a, b, c] = facet.vertices;
+            let [x, y, z] = self.large.across(n);
             mesh.overwrite(t, [p, a, b, c], [facet.outside, x, y, z]);
             mesh.set_twin(facet.outside, t.corner(0));
         }
@@ -127,25 +149,6 @@ impl Star {
 #[inline]
 fn place(from: u8, to: u8) -> usize {
     (usize::from(from) * ROWS + usize::from(to)) % (ROWS * ROWS)
-}
-
-/// [`Star::fill`] with a hash table.
-#[cold]
-fn fill_large(mesh: &mut TetMesh, p: VertexId, boundary: &[BoundaryFacet], new: &[TetId]) {
-    let mut opposite: FxHashMap<[VertexId; 2], Corner> =
-        FxHashMap::with_capacity_and_hasher(3 * boundary.len(), Default::default());
-    for (facet, &t) in boundary.iter().zip(new) {
-        let [a, b, c] = facet.vertices;
-        for (slot, edge) in [[b, c], [c, a], [a, b]].into_iter().enumerate() {
-            opposite.insert(edge, t.corner(slot + 1));
-        }
-    }
-    for (facet, &t) in boundary.iter().zip(new) {
-        let [a, b, c] = facet.vertices;
-        let [x, y, z] = [[c, b], [a, c], [b, a]].map(|edge| opposite[&edge]);
-        mesh.overwrite(t, [p, a, b, c], [facet.outside, x, y, z]);
-        mesh.set_twin(facet.outside, t.corner(0));
-    }
 }
 
 #[cfg(test)]

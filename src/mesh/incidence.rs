@@ -98,7 +98,9 @@ impl StarWalk<'_> {
     #[inline]
     fn find(&mut self, t: TetId) {
         if self.found.len() < FEW {
-            if !self.found.contains(&t) {
+            // All of them, several at a time: a search that stops at the first one is slower.
+            if !self.found.iter().fold(false, |found, &s| found | (s == t)) {
+                self.mesh.prefetch(t);
                 self.found.push(t);
             }
             return;

@@ -47,27 +47,34 @@ impl<const N: usize> Integer<N> {
     /// self + other.
     #[inline(always)]
     #[must_use]
+    // Loops written out, here and below: neither `from_fn` nor `zip` is always inlined.
+    #[allow(clippy::needless_range_loop)]
     pub fn plus(&self, other: &Self) -> Self {
+        let mut words = [0; N];
         let mut carry = false;
-        Integer(std::array::from_fn(|i| {
+        for i in 0..N {
             let (sum, first) = self.0[i].overflowing_add(other.0[i]);
             let (sum, second) = sum.overflowing_add(u64::from(carry));
             carry = first | second;
-            sum
-        }))
+            words[i] = sum;
+        }
+        Integer(words)
     }
 
     /// self − other.
     #[inline(always)]
     #[must_use]
+    #[allow(clippy::needless_range_loop)]
     pub fn minus(&self, other: &Self) -> Self {
+        let mut words = [0; N];
         let mut borrow = false;
-        Integer(std::array::from_fn(|i| {
+        for i in 0..N {
             let (difference, first) = self.0[i].overflowing_sub(other.0[i]);
             let (difference, second) = difference.overflowing_sub(u64::from(borrow));
             borrow = first | second;
-            difference
-        }))
+            words[i] = difference;
+        }
+        Integer(words)
     }
 
     /// self·other, which always fits `P` = `N` + `M` words.
@@ -87,8 +94,8 @@ impl<const N: usize> Integer<N> {
             product[i + M] = carry;
         }
         // So far the words were taken without sign; a negative factor was 2^(64N) or 2^(64M) too large.
-        subtract_if(self.is_negative(), &mut product[N..], &other.0);
-        subtract_if(other.is_negative(), &mut product[M..], &self.0);
+        subtract_if::<M, P>(self.is_negative(), &mut product, N, &other.0);
+        subtract_if::<N, P>(other.is_negative(), &mut product, M, &self.0);
         Integer(product)
     }
 
@@ -116,16 +123,21 @@ impl From<i64> for Integer<1> {
     }
 }
 
-/// from −= what, if so wished, without a branch.
+/// from −= what·2^(64·place), if so wished, without a branch.
 #[inline(always)]
-fn subtract_if(condition: bool, from: &mut [u64], what: &[u64]) {
+fn subtract_if<const N: usize, const P: usize>(
+    condition: bool,
+    from: &mut [u64; P],
+    place: usize,
+    what: &[u64; N],
+) {
     let mask = u64::from(condition).wrapping_neg();
     let mut borrow = false;
-    for (word, other) in from.iter_mut().zip(what) {
-        let (difference, first) = word.overflowing_sub(other & mask);
+    for i in 0..N {
+        let (difference, first) = from[place + i].overflowing_sub(what[i] & mask);
         let (difference, second) = difference.overflowing_sub(u64::from(borrow));
         borrow = first | second;
-        *word = difference;
+        from[place + i] = difference;
     }
 }
 

@@ -58,6 +58,12 @@ fn minor<const D: usize, const D2: usize>(a: &Vector<D>, b: &Vector<D>) -> Integ
     a[0].times::<D, D2>(&b[1]).minus(&b[0].times(&a[1]))
 }
 
+/// |p|².
+#[inline(always)]
+fn lift<const D: usize, const D2: usize>([x, y, z]: &Vector<D>) -> Integer<D2> {
+    x.times::<D, D2>(x).plus(&y.times(y)).plus(&z.times(z))
+}
+
 /// z_a·bc − z_b·ac + z_c·ab, for the minors of two.
 #[inline(always)]
 fn expand<const D: usize, const D2: usize, const D3: usize>(
@@ -104,16 +110,12 @@ pub(super) fn insphere<const D: usize, const D2: usize, const D3: usize, const D
     let acd: Integer<D3> = expand([a, c, d], [&cd, &ad, &ac]);
     let abd: Integer<D3> = expand([a, b, d], [&bd, &ad, &ab]);
     let abc: Integer<D3> = expand([a, b, c], [&bc, &ac, &ab]);
-    let lift = |p: &Vector<D>| -> Integer<D2> {
-        let [x, y, z] = p;
-        x.times::<D, D2>(x).plus(&y.times(y)).plus(&z.times(z))
-    };
     // −Σ c_i·h_i with c = (−bcd, acd, −abd, abc).
-    let outer: Integer<D5> = bcd.times(&lift(a));
+    let outer: Integer<D5> = bcd.times(&lift::<D, D2>(a));
     let det = outer
-        .minus(&acd.times(&lift(b)))
-        .plus(&abd.times(&lift(c)))
-        .minus(&abc.times(&lift(d)));
+        .minus(&acd.times(&lift::<D, D2>(b)))
+        .plus(&abd.times(&lift::<D, D2>(c)))
+        .minus(&abc.times(&lift::<D, D2>(d)));
     let ce = bcd.plus(&abd).minus(&acd).minus(&abc);
     let zero = Integer::ZERO;
     (

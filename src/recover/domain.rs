@@ -109,6 +109,7 @@ impl Flood<'_> {
                     && self.walls.triangle(self.mesh.facet(c)).is_none()
                 {
                     self.component[n.index()] = id;
+                    self.mesh.prefetch(n);
                     stack.push(n);
                 }
             }

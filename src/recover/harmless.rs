@@ -8,10 +8,10 @@
 //! the points of the other.
 //!
 //! All of this is a choice only: wherever the point is put, recovery stays correct. So floats do. The search ends because
-//! the effort is bounded ([`Placement`]).
+//! the effort is bounded (`recovery.rs`).
 
 use super::reach::Span;
-use super::recovery::{Placement, SegmentRecovery};
+use super::recovery::SegmentRecovery;
 use super::split::{Subsegment, fewest_bits};
 use crate::mesh::{TetId, VertexId};
 use crate::predicate::PointStore;
@@ -73,9 +73,7 @@ impl<P: PointStore> SegmentRecovery<'_, P> {
         let looked = self
             .reaches
             .find(self.points, mesh, ab, crossed, range, MOST_TETS);
-        if let Placement::Harmless { effort, .. } = &mut self.placement {
-            *effort = effort.saturating_sub(looked.unwrap_or(MOST_TETS));
-        }
+        self.looked += looked.unwrap_or(MOST_TETS);
         self.harmful.clear();
         if looked.is_some() {
             let (subsegments, harmful) = (&self.subsegments, &mut self.harmful);

@@ -18,6 +18,7 @@ pub mod missing;
 mod obstruction;
 pub mod polygons;
 mod prune;
+mod race;
 mod reach;
 mod recovery;
 mod refusal;

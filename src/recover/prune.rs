@@ -164,6 +164,7 @@ impl Star {
             for slot in (0..4).filter(|&slot| vertices[slot] != v) {
                 let across = mesh.twin(t.corner(slot));
                 if self.found.insert(across.tet().index()) {
+                    mesh.prefetch(across.tet());
                     self.tets.push(across.tet());
                     self.note(mesh.vertex(across));
                 }

@@ -1,8 +1,9 @@
 //! The recovery of missing subsegments, one after the other, with one way of placing Steiner points.
 //!
 //! Each missing subsegment is split, the longest first: then neighbours that are about as long are split alike, and their
-//! points stay level with each other. An insertion can destroy other subsegments, so those in its conflict zone are looked
-//! at again, and no others: the queue holds the missing subsegments, each once.
+//! points stay level with each other. An insertion can destroy other subsegments, those inside its conflict zone, and no
+//! others; and the halves of what it splits may be missing. So the queue holds the missing subsegments, each once, but for
+//! some that have come back.
 
 use super::reach::{Reaches, Span};
 use super::scout::{Crossing, Scouted, scout};
@@ -23,24 +24,24 @@ use std::collections::BinaryHeap;
 /// need one every few ulps.
 pub(super) const MOST_VERTICES_PER_SEGMENT: usize = 1 << 14;
 
-/// The search for harmless places is given up if it has more points than the rules had needed so far, by this part of what
-/// these need in the end. A few per cent are often made up for later.
-const TOO_FAR_BEHIND: usize = 24;
+/// How many tetrahedra the search for harmless places may look at: so many, and so many for each Steiner point.
+const EFFORT: [usize; 2] = [1_000_000, 1500];
 
 /// A tetrahedralization with all segments.
+#[derive(Clone)]
 pub(super) struct Recovered {
     pub(super) delaunay: Delaunay,
     pub(super) incidence: Incidence,
     pub(super) subsegments: Subsegments,
 }
 
-/// How far recovery was when it came to subsegments that were shorter than all before.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Level {
-    /// The bits of the length of the first one.
-    length: u64,
-    /// The number of Steiner points.
-    count: usize,
+/// What insertions have changed.
+#[derive(Clone, Debug, Default)]
+pub struct Changes {
+    /// All vertices whose stars have changed.
+    pub touched: FxHashSet<VertexId>,
+    /// All edges that have vanished, and all subsegments that have been split.
+    pub vanished: Vec<[VertexId; 2]>,
 }
 
 /// Where Steiner points are put.
@@ -49,12 +50,7 @@ pub(super) enum Placement {
     /// Where the rules of [`super::split`] say.
     ByRules,
     /// Where the fewest other subsegments are destroyed.
-    Harmless {
-        /// More Steiner points than this are of no use: there is a result with so many.
-        most: usize,
-        /// How many more tetrahedra may be looked at in the search for places.
-        effort: usize,
-    },
+    Harmless,
 }
 
 /// A subsegment to look at: the bits of its length, which are in the order of the lengths, and its ends, in one number, since
@@ -80,7 +76,9 @@ pub(super) struct SegmentRecovery<'a, P> {
     pub(super) delaunay: Delaunay,
     pub(super) incidence: Incidence,
     pub(super) subsegments: Subsegments,
-    pub(super) placement: Placement,
+    placement: Placement,
+    /// How many tetrahedra the search for harmless places has looked at.
+    pub(super) looked: usize,
     /// Subsegments to look at, the longest first.
     missing: BinaryHeap<Missing>,
     /// Memory used again.
@@ -89,8 +87,8 @@ pub(super) struct SegmentRecovery<'a, P> {
     crossing: Crossing,
     lost: Vec<[VertexId; 2]>,
     zone: Stamps,
-    /// The vertices whose stars have changed, if that is of interest.
-    pub(super) touched: Option<FxHashSet<VertexId>>,
+    /// What has changed, if that is of interest.
+    pub(super) changes: Option<Changes>,
 }
 
 impl<'a, P: PointStore> SegmentRecovery<'a, P> {
@@ -105,25 +103,45 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
             incidence: start.incidence,
             subsegments: start.subsegments,
             placement,
+            looked: 0,
             missing: BinaryHeap::new(),
             reaches: Reaches::default(),
             harmful: Vec::new(),
             crossing: Crossing::default(),
             lost: Vec::new(),
             zone: Stamps::default(),
-            touched: None,
+            changes: None,
         }
     }
 
-    /// Splits the given subsegments and others, the longest first, until none is missing.
-    pub(super) fn run(
-        mut self,
-        missing: &[[VertexId; 2]],
-        levels: &mut Vec<Level>,
-    ) -> Result<Recovered, Failure> {
+    /// To be recovered: subsegments that are missing.
+    pub(super) fn enqueue_all(&mut self, missing: &[[VertexId; 2]]) {
         missing.iter().for_each(|&[a, b]| self.enqueue(a, b));
-        self.recover_missing(levels)?;
-        Ok(self.finish())
+    }
+
+    /// The length of the longest missing subsegment; `None` if none is missing.
+    pub(super) fn longest(&self) -> Option<f64> {
+        let (length, _) = self.missing.peek()?.parts();
+        Some(f64::from_bits(length))
+    }
+
+    /// About as many Steiner points will be needed at least.
+    pub(super) fn bound(&self) -> usize {
+        self.subsegments.steiner_count() + self.missing.len()
+    }
+
+    /// Splits missing subsegments, the longest first, until none of at least this length is missing, or more than `most`
+    /// points will be needed; whether it came to the first end.
+    pub(super) fn recover_down_to(&mut self, length: f64, most: usize) -> Result<bool, Failure> {
+        while self.longest().is_some_and(|longest| longest >= length) {
+            if self.bound() > most {
+                return Ok(false);
+            }
+            let missing = self.missing.pop().expect("there is a longest one");
+            let (_, [a, b]) = missing.parts();
+            self.recover(a, b)?;
+        }
+        Ok(self.bound() <= most)
     }
 
     pub(super) fn finish(self) -> Recovered {
@@ -132,37 +150,6 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
             incidence: self.incidence,
             subsegments: self.subsegments,
         }
-    }
-
-    /// By the rules, notes how far it is when it comes to shorter subsegments. Otherwise gives up if it is too far behind
-    /// that, or not ahead of it once it has a quarter of the points that would make it useless.
-    pub(super) fn recover_missing(&mut self, levels: &mut Vec<Level>) -> Result<(), Failure> {
-        let mut shortest = u64::MAX;
-        let mut next = 0;
-        while let Some(missing) = self.missing.pop() {
-            let (length, [a, b]) = missing.parts();
-            if length < shortest {
-                shortest = length;
-                let count = self.subsegments.steiner_count();
-                match self.placement {
-                    Placement::ByRules => levels.push(Level { length, count }),
-                    Placement::Harmless { most, .. } => {
-                        while levels.get(next).is_some_and(|level| level.length > length) {
-                            next += 1;
-                        }
-                        let by_rules = levels.get(next).map_or(usize::MAX, |level| level.count);
-                        if count >= by_rules && count > most / 4
-                            || count.saturating_sub(by_rules) > most / TOO_FAR_BEHIND
-                        {
-                            let segment = [a, b];
-                            return Err(GaveUp::TooManySteinerPoints { segment }.into());
-                        }
-                    }
-                }
-            }
-            self.recover(a, b)?;
-        }
-        Ok(())
     }
 
     /// Does what is requested, if it can be done; recovers nothing yet.
@@ -247,11 +234,7 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
         let ends = self.subsegments.ends(s);
         let count = self.subsegments.steiner_count();
         let vertices = self.subsegments.vertices_on(s);
-        let useless = match self.placement {
-            Placement::ByRules => false,
-            Placement::Harmless { most, effort } => count >= most || effort == 0,
-        };
-        if useless || vertices >= MOST_VERTICES_PER_SEGMENT {
+        if self.looked > EFFORT[0] + EFFORT[1] * count || vertices >= MOST_VERTICES_PER_SEGMENT {
             let segment = ends;
             return Err(GaveUp::TooManySteinerPoints { segment }.into());
         }
@@ -268,7 +251,7 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
             return middle.ok_or_else(|| self.too_short(ends));
         };
         Ok(match self.placement {
-            Placement::Harmless { .. } => {
+            Placement::Harmless => {
                 let crossing = std::mem::take(&mut self.crossing);
                 let place = self.less_harmful(directed, &subsegment, t, &crossing.tets);
                 self.crossing = crossing;
@@ -290,10 +273,29 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
         if !self.insert(v) {
             return Err(self.too_short(ends));
         }
-        for [a, b] in self.subsegments.split(s, [a, b], t, v) {
-            self.enqueue(a, b);
+        if let Some(changes) = &mut self.changes {
+            changes.vanished.push([a, b]);
+        }
+        let (from_a, from_b) = self.created_edges(a, b);
+        let [to_a, to_b] = self.subsegments.split(s, [a, b], t, v);
+        for ([a, b], is_there) in [(to_a, from_a), (to_b, from_b)] {
+            if !is_there {
+                self.enqueue(a, b);
+            }
         }
         Ok(v)
+    }
+
+    /// Whether a and b are joined to the vertex that has just been inserted.
+    fn created_edges(&self, a: VertexId, b: VertexId) -> (bool, bool) {
+        let mesh = &self.delaunay.mesh;
+        let mut found = (false, false);
+        for &t in self.delaunay.created() {
+            let vertices = mesh.vertices(t);
+            found.0 |= vertices.contains(&a);
+            found.1 |= vertices.contains(&b);
+        }
+        found
     }
 
     /// Inserts v, unless there is a vertex where it is.
@@ -306,10 +308,19 @@ impl<'a, P: PointStore> SegmentRecovery<'a, P> {
         }
         self.delaunay.find_conflicts(self.points, v, start);
         self.queue_lost();
-        if let Some(touched) = &mut self.touched {
+        if let Some(changes) = &mut self.changes {
             let (mesh, zone) = (&self.delaunay.mesh, self.delaunay.conflicts());
-            touched.extend(zone.iter().flat_map(|&t| mesh.vertices(t)));
-            touched.insert(v);
+            let touched = zone.iter().flat_map(|&t| mesh.vertices(t)).chain([v]);
+            changes.touched.extend(touched);
+            inner_edges(
+                mesh,
+                zone,
+                |t: TetId| self.zone.contains(t.index()),
+                |_| true,
+                (),
+                |(), _| Some(()),
+                |edge, ()| changes.vanished.push(edge),
+            );
         }
         self.delaunay.replace_conflicts(v);
         let created = self.delaunay.created();

@@ -12,31 +12,28 @@
 //! Each missing subsegment is split ([`super::split`]), the longest first (`recovery.rs`).
 //!
 //! # Thrift
-//! Which points are inserted is a choice. Two ways are tried from the start, and the one that needs fewer points is kept:
-//! the place that the rules of [`super::split`] say, and the place that destroys the fewest other subsegments
-//! (`harmless.rs`). The second one is abandoned where it is not ahead of the first after a while. In the end, points
-//! that turn out unnecessary are removed (`prune.rs`).
+//! Which points are inserted is a choice. Two ways are tried side by side until it is clear which one needs fewer points
+//! (`race.rs`): the place that the rules of [`super::split`] say, and the place that destroys the fewest other subsegments
+//! (`harmless.rs`). In the end, points that turn out unnecessary are removed (`prune.rs`).
 
-use super::recovery::{Level, MOST_VERTICES_PER_SEGMENT, Placement, Recovered, SegmentRecovery};
+use super::race::recover_thriftily;
+pub use super::recovery::Changes;
+use super::recovery::{Placement, Recovered, SegmentRecovery};
 use super::scout::{Scouted, scout};
 pub use super::segment_index::SegmentIndex;
 pub use super::subsegments::Subsegments;
 use crate::delaunay::Delaunay;
-use crate::error::{Failure, GaveUp};
+use crate::error::Failure;
 use crate::mesh::{Incidence, VertexId};
 use crate::plc::Complex;
 use crate::predicate::PointStore;
-use rustc_hash::FxHashSet;
-
-/// How many tetrahedra the search for harmless places may look at, for each Steiner point of the result to be improved.
-const EFFORT_PER_POINT: usize = 1500;
 
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
 ///
 /// # Errors
 /// [`InvalidPlc`](crate::error::InvalidPlc) where a vertex lies on a segment; [`GaveUp::SegmentTooShort`] where a segment cannot be divided any
 /// more in the store's coordinates, as happens where segments or facets intersect. The tetrahedralization may then be gone.
-pub fn recover_segments<P: PointStore>(
+pub fn recover_segments<P: PointStore + Clone>(
     complex: &Complex,
     points: &mut P,
     delaunay: &mut Delaunay,
@@ -52,41 +49,12 @@ pub fn recover_segments<P: PointStore>(
     if missing.is_empty() {
         return Ok((subsegments, incidence));
     }
-    let copy = Recovered {
-        delaunay: delaunay.clone(),
-        incidence: incidence.clone(),
-        subsegments: subsegments.clone(),
-    };
-    let mut levels: Vec<Level> = Vec::new();
-    let by_rules = SegmentRecovery::new(points, copy, Placement::ByRules);
-    let by_rules = by_rules.run(&missing, &mut levels);
-    let most = match &by_rules {
-        Ok(recovered) => recovered.subsegments.steiner_count(),
-        Err(Failure::GaveUp(GaveUp::SegmentTooShort { .. } | GaveUp::SegmentsTooClose { .. })) => {
-            levels.clear();
-            MOST_VERTICES_PER_SEGMENT
-        }
-        Err(_) => return by_rules.map(|r| (r.subsegments, r.incidence)),
-    };
-    points.truncate(first);
-    let original = Recovered {
+    let start = Recovered {
         delaunay: std::mem::take(delaunay),
         incidence,
         subsegments,
     };
-    let harmless = Placement::Harmless {
-        most,
-        effort: 1_000_000 + EFFORT_PER_POINT * most,
-    };
-    let harmless = SegmentRecovery::new(points, original, harmless).run(&missing, &mut levels);
-    let recovered = match (by_rules, harmless) {
-        (Ok(rules), Ok(harmless)) => {
-            let fewer = harmless.subsegments.steiner_count() < rules.subsegments.steiner_count();
-            if fewer { harmless } else { rules }
-        }
-        (Ok(recovered), _) | (_, Ok(recovered)) => recovered,
-        (Err(failure), _) => return Err(failure),
-    };
+    let recovered = recover_thriftily(points, start, &missing)?;
     points.truncate(first);
     recovered.subsegments.push_all(points);
     let recovered = recovered.pruned(points);
@@ -108,8 +76,8 @@ pub enum Request {
 pub struct Added {
     /// For each request the new vertex, or `None` if there is a vertex already, or the subsegment is no more.
     pub vertices: Vec<Option<VertexId>>,
-    /// All vertices whose stars have changed.
-    pub touched: FxHashSet<VertexId>,
+    /// What their insertion has changed.
+    pub changes: Changes,
 }
 
 /// Inserts more Steiner points, and those with which segments are recovered that these destroy, into a Delaunay
@@ -130,18 +98,18 @@ pub fn add_steiner_points<P: PointStore>(
         subsegments: std::mem::take(subsegments),
     };
     let mut recovery = SegmentRecovery::new(points, start, Placement::ByRules);
-    recovery.touched = Some(FxHashSet::default());
+    recovery.changes = Some(Changes::default());
     let requests = requests.iter();
     let vertices: Result<Vec<_>, Failure> = requests.map(|&r| recovery.add(r)).collect();
     let recovered =
-        vertices.and_then(|vertices| recovery.recover_missing(&mut Vec::new()).map(|()| vertices));
-    let touched = recovery.touched.take().unwrap_or_default();
+        vertices.and_then(|vertices| recovery.recover_down_to(0.0, usize::MAX).map(|_| vertices));
+    let changes = recovery.changes.take().unwrap_or_default();
     let end = recovery.finish();
     *delaunay = end.delaunay;
     *subsegments = end.subsegments;
     *incidence = end.incidence;
     Ok(Added {
         vertices: recovered?,
-        touched,
+        changes,
     })
 }

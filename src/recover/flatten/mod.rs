@@ -9,8 +9,8 @@
 //! there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it. It may have shims, which are
 //! repaired on output (`shims`).
 //!
-//! After each round of Steiner points only the polygons at vertices whose stars have changed are looked at, and those that
-//! could not be cut.
+//! After each round of Steiner points only polygons with both ends of an edge that has vanished are looked at, and those
+//! that could not be cut.
 //!
 //! # End
 //! Refinement of nearly flat polygons ends in practice for the same reasons as that of segments; it is bounded by
@@ -34,7 +34,7 @@ use crate::predicate::PointStore;
 use cut::Cut;
 use figure::Figure;
 use neighbours::Neighbours;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 use serde::Serialize;
 use shims::ShimCounts;
 use std::ops::Range;
@@ -125,14 +125,37 @@ struct State<'a> {
     vertices: Vec<VertexId>,
 }
 
-/// On which polygons each vertex is. A Steiner point on the boundary of a polygon touches those beside it, so that a polygon
-/// with no vertex that is touched is as it was.
+/// On which polygons each vertex is. The pieces of a polygon depend on its vertices and on the edges between them. Edges that
+/// appear have a new vertex, and if that is on a segment, it divides an edge of all polygons that it is on, of which it is
+/// the first new vertex, or which have been found by an earlier one. So a polygon with at most one end of each edge that
+/// vanishes is as it was, unless it gets an inner point.
 struct PolygonsAt {
     /// Those of the vertices when the first Steiner point was inserted; polygons keep all vertices that they have.
     before: Groups<u32>,
     first_new: usize,
     /// Those of later Steiner points.
     new: FxHashMap<VertexId, Vec<u32>>,
+}
+
+impl PolygonsAt {
+    /// Those of v; of a Steiner point those that have been looked at since it came.
+    fn of(&self, v: VertexId) -> impl Iterator<Item = u32> + '_ {
+        let before = if v.index() < self.first_new {
+            self.before.of(v)
+        } else {
+            &[]
+        };
+        let new = self.new.get(&v).into_iter().flatten();
+        before.iter().chain(new).copied()
+    }
+
+    /// Whether f is among those of v.
+    fn has(&self, v: VertexId, f: u32) -> bool {
+        if v.index() < self.first_new {
+            return self.before.of(v).binary_search(&f).is_ok();
+        }
+        self.new.get(&v).is_some_and(|of| of.contains(&f))
+    }
 }
 
 /// Cuts all polygons that are not flat, inserting Steiner points where that is impossible. If it would take too many of
@@ -194,8 +217,8 @@ pub fn flatten<P: PointStore>(
                 Request::Split(_) => refined.points_on_segments += 1,
             }
         }
-        state.neighbours.forget(&added.touched);
-        let again = state.bad_or_at(&added.touched).into_iter();
+        state.neighbours.forget(&added.changes.touched);
+        let again = state.bad_or_at(&added.changes.vanished).into_iter();
         requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), again);
     }
     *counts = refined;
@@ -273,17 +296,15 @@ impl State<'_> {
         }
     }
 
-    /// The polygons with cells that are not flat, and those with vertices that have been touched; ascending.
-    fn bad_or_at(&self, touched: &FxHashSet<VertexId>) -> Vec<usize> {
+    /// The polygons with cells that are not flat, and those with both ends of an edge that has vanished; ascending.
+    fn bad_or_at(&self, vanished: &[[VertexId; 2]]) -> Vec<usize> {
         let at = self
             .polygons_at
             .as_ref()
             .expect("it is found before the first round");
         let mut again = self.bad.clone();
-        for v in touched {
-            let before = at.before.of(*v).iter();
-            let new = at.new.get(v).into_iter().flatten();
-            again.extend(before.chain(new).map(|&f| f as usize));
+        for &[a, b] in vanished {
+            again.extend(at.of(a).filter(|&f| at.has(b, f)).map(|f| f as usize));
         }
         again.sort_unstable();
         again.dedup();

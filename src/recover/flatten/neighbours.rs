@@ -47,11 +47,15 @@ impl Neighbours {
         self.round += 1;
         let round = self.round;
         self.found.clear();
+        self.open.clear();
         if let Some(t) = incidence.tet_at(v) {
             self.seen_tets[t.index()] = round;
             self.open.push(t);
         }
-        while let Some(t) = self.open.pop() {
+        // First in, first out: what has been found is on its way from memory meanwhile.
+        let mut next = 0;
+        while let Some(&t) = self.open.get(next) {
+            next += 1;
             let vertices = mesh.vertices(t);
             for (slot, &w) in vertices.iter().enumerate() {
                 if w == v {
@@ -59,6 +63,7 @@ impl Neighbours {
                 }
                 let n = mesh.neighbor(t.corner(slot));
                 if std::mem::replace(&mut self.seen_tets[n.index()], round) != round {
+                    mesh.prefetch(n);
                     self.open.push(n);
                 }
                 if w < v || w.is_infinite() {
