@@ -7,6 +7,7 @@
 use super::filter::{self, Exactness, Permanent};
 use super::fixed::{self, Scaled};
 use super::formulas::{Insphere, Orient, Side};
+use super::tally::Tally;
 use super::words::{self, Cell};
 use crate::machine::prefetch;
 use crate::mesh::VertexId;
@@ -29,7 +30,7 @@ pub(super) struct Points {
     /// The greatest k for each point such that its coordinates are multiples of 2^k; [`ELSEWHERE`] if they are no doubles.
     grain: Vec<i16>,
     exactness: Exactness,
-    exact_signs: std::cell::Cell<usize>,
+    exact_signs: Tally,
 }
 
 /// Below all exponents.
@@ -88,7 +89,7 @@ impl Points {
         Points {
             exactness: Exactness::new(grain.iter().copied().min().unwrap_or(0)),
             grain,
-            exact_signs: std::cell::Cell::new(0),
+            exact_signs: Tally::default(),
             coordinates,
             exact: FxHashMap::default(),
             wobble: Vec::new(),
@@ -202,7 +203,7 @@ impl Points {
 
     /// How many signs were decided by integers so far.
     pub(super) fn exact_signs(&self) -> usize {
-        self.exact_signs.get()
+        self.exact_signs.total()
     }
 
     /// The points in the largest unit that makes them integers, if those are small enough.
@@ -229,7 +230,7 @@ impl Points {
 
     /// A sign that is decided by integers.
     pub(super) fn counted(&self, sign: Sign) -> Sign {
-        self.exact_signs.set(self.exact_signs.get() + 1);
+        self.exact_signs.add();
         sign
     }
 
