@@ -109,7 +109,7 @@ impl Ordered {
         };
         let share = tets.len().div_ceil(shares);
         let parts = || tets.chunks(share.max(1)).enumerate();
-        let mut next: Vec<[Vec<u32>; 2]> = threads::each(parts(), |(_, tets)| {
+        let mut next: Vec<[Vec<u32>; 2]> = threads::each(parts(), 2, |(_, tets)| {
             let mut counts = [vec![0u32; vertices], vec![0u32; vertices]];
             for tet in tets {
                 let least = two_least(tet);
@@ -133,7 +133,7 @@ impl Ordered {
         });
         let blank = || (0..tets.len()).map(|_| AtomicU32::new(0)).collect();
         let order: [Vec<AtomicU32>; 2] = [blank(), blank()];
-        threads::each(parts().zip(&mut next), |((part, tets), next)| {
+        threads::each(parts().zip(&mut next), 2, |((part, tets), next)| {
             for (t, tet) in (part * share..).zip(tets) {
                 for (i, v) in two_least(tet).into_iter().enumerate() {
                     let place = &mut next[i][v.index()];

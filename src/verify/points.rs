@@ -8,6 +8,7 @@ use super::filter::{self, Exactness, Permanent};
 use super::fixed::{self, Scaled};
 use super::formulas::{Insphere, Orient, Side};
 use super::tally::Tally;
+use super::threads;
 use super::words::{self, Cell};
 use crate::machine::prefetch;
 use crate::mesh::VertexId;
@@ -32,6 +33,9 @@ pub(super) struct Points {
     exactness: Exactness,
     exact_signs: Tally,
 }
+
+/// Fewer points are one thread's work.
+const FEW: usize = 1 << 15;
 
 /// Below all exponents.
 const ELSEWHERE: i16 = i16::MIN;
@@ -78,14 +82,16 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 impl Points {
     /// Finite coordinates.
     pub(super) fn new(coordinates: Vec<[f64; 3]>) -> Points {
-        let largest = coordinates
-            .iter()
-            .flatten()
-            .fold(0.0f64, |m, x| m.max(x.abs()));
-        let grain: Vec<i16> = coordinates
-            .iter()
-            .map(|p| grain(p[0]).min(grain(p[1])).min(grain(p[2])))
-            .collect();
+        let n = coordinates.len();
+        let parts = threads::in_parts(n, FEW, |range| {
+            let numbers = coordinates[range].iter().flatten();
+            numbers.fold(0.0f64, |m, x| m.max(x.abs()))
+        });
+        let largest = parts.into_iter().fold(0.0, f64::max);
+        let grain: Vec<i16> = threads::map(n, FEW, |v| {
+            let [x, y, z] = coordinates[v].map(grain);
+            x.min(y).min(z)
+        });
         Points {
             exactness: Exactness::new(grain.iter().copied().min().unwrap_or(0)),
             grain,

@@ -30,16 +30,22 @@ pub(super) fn in_parts<T: Send>(
     }
 }
 
-/// What `work` makes of each item, in order; one item is not worth while to wake a thread.
+/// What `work` makes of each item, in order; by one thread if there are fewer than `least`.
 pub(super) fn each<I: Send, T: Send>(
-    items: impl Iterator<Item = I>,
+    items: impl ExactSizeIterator<Item = I>,
+    least: usize,
     work: impl Fn(I) -> T + Sync,
 ) -> Vec<T> {
-    let items: Vec<I> = items.collect();
-    match items.len() {
-        0 | 1 => items.into_iter().map(work).collect(),
-        _ => items.into_par_iter().map(&work).collect(),
+    if items.len() < least || rayon::current_num_threads() == 1 {
+        return items.map(work).collect();
     }
+    let items: Vec<I> = items.collect();
+    items.into_par_iter().map(&work).collect()
+}
+
+/// What `find` makes of each of `0..n`, in order.
+pub(super) fn map<T: Send>(n: usize, least: usize, find: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    joined(in_parts(n, least, |range| range.map(&find).collect()))
 }
 
 /// The elements that `find` pushes for each of `0..n`, in order.
@@ -48,15 +54,27 @@ pub(super) fn collect<T: Send>(
     least: usize,
     find: impl Fn(usize, &mut Vec<T>) + Sync,
 ) -> Vec<T> {
-    let parts = in_parts(n, least, |range| {
+    joined(in_parts(n, least, |range| {
         let mut found = Vec::new();
         range.for_each(|i| find(i, &mut found));
         found
-    });
+    }))
+}
+
+fn joined<T>(parts: Vec<Vec<T>>) -> Vec<T> {
     let mut parts = parts.into_iter();
     let mut all = parts.next().unwrap_or_default();
     parts.for_each(|part| all.extend(part));
     all
+}
+
+/// Sorts what is different wherever it compares different.
+pub(super) fn sort<T: Ord + Send>(items: &mut [T], least: usize) {
+    if items.len() < least || rayon::current_num_threads() == 1 {
+        items.sort_unstable();
+    } else {
+        items.par_sort_unstable();
+    }
 }
 
 /// How many of `0..n` are such.
@@ -83,6 +101,15 @@ mod tests {
                     let pairs = collect(n, least, |i, found| found.extend([i; 2]));
                     assert!(pairs.into_iter().eq((0..n).flat_map(|i| [i; 2])));
                     assert_eq!(count(n, least, |i| i % 3 == 0), n.div_ceil(3));
+                    assert!(
+                        map(n, least, |i| 2 * i)
+                            .into_iter()
+                            .eq((0..n).map(|i| 2 * i))
+                    );
+                    assert!(each(0..n, least, |i| i + 1).into_iter().eq(1..=n));
+                    let mut mixed: Vec<usize> = (0..n).map(|i| i * 7 % n.max(1)).collect();
+                    sort(&mut mixed, least);
+                    assert!(mixed.is_sorted());
                 }
             });
         }
