@@ -25,6 +25,8 @@ type Point = [f64; 3];
 
 /// Cells with no more simplices are not cut.
 const SMALL: usize = 24;
+/// Cells with fewer simplices are one thread's work.
+const SHARED: usize = 1 << 12;
 /// An upper bound on the depth, which is about log2 of the number of simplices.
 const DEEPEST: usize = 64;
 /// A cut must leave at most this part of the pairs.
@@ -47,6 +49,22 @@ pub(super) struct Simplices<'a> {
 struct Bounds {
     low: Point,
     high: Point,
+}
+
+/// All of space.
+const EVERYTHING: Bounds = Bounds {
+    low: [f64::NEG_INFINITY; 3],
+    high: [f64::INFINITY; 3],
+};
+
+/// What becomes of the simplices of a cell.
+enum Step {
+    /// They have a common vertex.
+    Nothing,
+    /// All pairs are visited.
+    Compare(Vec<u32>),
+    /// They are divided.
+    Halves([(Bounds, Vec<u32>); 2]),
 }
 
 impl Bounds {
@@ -87,47 +105,93 @@ impl<'a> Simplices<'a> {
     /// with edges and triangles. Some pairs are visited more than once.
     pub fn pairs(&self, visit: Visit) -> ControlFlow<()> {
         let all: Vec<u32> = (0..self.corners.len()).map(|i| i as u32).collect();
-        let cell = Bounds {
-            low: [f64::NEG_INFINITY; 3],
-            high: [f64::INFINITY; 3],
+        self.divide(&EVERYTHING, all, DEEPEST, visit)
+    }
+
+    /// The same by all threads: each collects what `visit` makes of some of the pairs, and `join` joins two such collections.
+    /// Which pairs are visited does not depend on the number of threads; what is collected must not depend on their order.
+    pub fn collect<T: Default + Send>(
+        &self,
+        visit: &(dyn Fn(usize, usize, &mut T) + Sync),
+        join: &(dyn Fn(&mut T, T) + Sync),
+    ) -> T {
+        let all: Vec<u32> = (0..self.corners.len()).map(|i| i as u32).collect();
+        self.divide_shared(&EVERYTHING, all, DEEPEST, visit, join)
+    }
+
+    fn divide_shared<T: Default + Send>(
+        &self,
+        cell: &Bounds,
+        list: Vec<u32>,
+        depth: usize,
+        visit: &(dyn Fn(usize, usize, &mut T) + Sync),
+        join: &(dyn Fn(&mut T, T) + Sync),
+    ) -> T {
+        let mut found = T::default();
+        let mut alone = |i: usize, j: usize| {
+            visit(i, j, &mut found);
+            ControlFlow::Continue(())
         };
-        self.divide(&cell, all, DEEPEST, visit)
+        let step = if list.len() < SHARED || rayon::current_num_threads() == 1 {
+            let _ = self.divide(cell, list, depth, &mut alone);
+            return found;
+        } else {
+            self.step(cell, list, depth)
+        };
+        match step {
+            Step::Nothing => found,
+            Step::Compare(list) => {
+                let _ = self.compare(&list, &mut alone);
+                found
+            }
+            Step::Halves(halves) => {
+                let [first, second] = halves.map(|(cell, list)| {
+                    move || self.divide_shared(&cell, list, depth - 1, visit, join)
+                });
+                let (mut found, more) = rayon::join(first, second);
+                join(&mut found, more);
+                found
+            }
+        }
     }
 
     fn divide(&self, cell: &Bounds, list: Vec<u32>, depth: usize, visit: Visit) -> ControlFlow<()> {
+        match self.step(cell, list, depth) {
+            Step::Nothing => ControlFlow::Continue(()),
+            Step::Compare(list) => self.compare(&list, visit),
+            Step::Halves([(left_cell, left), (right_cell, right)]) => {
+                self.divide(&left_cell, left, depth - 1, visit)?;
+                self.divide(&right_cell, right, depth - 1, visit)
+            }
+        }
+    }
+
+    /// What to do with the simplices of a cell.
+    fn step(&self, cell: &Bounds, list: Vec<u32>, depth: usize) -> Step {
         if list.len() <= SMALL || depth == 0 {
-            return self.compare(&list, visit);
+            return Step::Compare(list);
         }
         if self.is_fan(&list) {
-            return ControlFlow::Continue(());
+            return Step::Nothing;
         }
         let tight = self.tight(cell, &list);
         let size = |k: usize| 0.5 * tight.high[k] - 0.5 * tight.low[k];
         let mut axes = [0, 1, 2];
         axes.sort_by(|&j, &k| size(k).total_cmp(&size(j)));
         for axis in axes {
-            let Some((cells, halves)) = self.cut(&tight, &list, axis) else {
-                continue;
-            };
-            std::mem::drop(list);
-            let [left, right] = halves;
-            self.divide(&cells[0], left, depth - 1, visit)?;
-            return self.divide(&cells[1], right, depth - 1, visit);
+            if let Some(([low, high], [left, right])) = self.cut(&tight, &list, axis) {
+                return Step::Halves([(low, left), (high, right)]);
+            }
         }
-        if let Some([left, right]) = self.cut_book(&list) {
-            std::mem::drop(list);
-            self.divide(&tight, left, depth - 1, visit)?;
-            return self.divide(&tight, right, depth - 1, visit);
+        if let Some(halves) = self.cut_book(&list) {
+            return Step::Halves(halves.map(|half| (tight, half)));
         }
         for direction in self.across_longest(&list) {
-            let Some([left, right]) = self.cut_across(&tight, &list, direction) else {
-                continue;
-            };
-            std::mem::drop(list);
-            self.divide(&tight, left, depth - 1, visit)?;
-            return self.divide(&tight, right, depth - 1, visit);
+            if let Some(halves) = self.cut_across(&tight, &list, direction) {
+                return Step::Halves(halves.map(|half| (tight, half)));
+            }
         }
-        self.compare(&list, visit)
+        Step::Compare(list)
     }
 
     /// Whether all simplices have one vertex in common.
