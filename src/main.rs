@@ -3,6 +3,7 @@
 mod cli;
 
 use clap::{Parser, Subcommand};
+use cli::Stop;
 use cli::check::{CheckArguments, check_file};
 use cli::delaunay::{DelaunayArguments, delaunay_of_file};
 use cli::generate::{GenerateArguments, generate_file};
@@ -20,6 +21,10 @@ use std::process::ExitCode;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// How many threads to use for what several can do. What is computed does not depend on it. [default: all processors, or
+    /// what RAYON_NUM_THREADS says]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
 }
 
 #[derive(Subcommand)]
@@ -39,14 +44,8 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
-        Command::Mesh(arguments) => mesh(&arguments),
-        Command::Check(arguments) => check_file(&arguments),
-        Command::Verify(arguments) => verify_files(&arguments),
-        Command::Delaunay(arguments) => delaunay_of_file(&arguments),
-        Command::Generate(arguments) => generate_file(&arguments),
-        Command::Survey(arguments) => survey(&arguments),
-    };
+    let Arguments { command, threads } = Arguments::parse();
+    let result = start_threads(threads).and_then(|()| run(command));
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(stop) => {
@@ -55,4 +54,27 @@ fn main() -> ExitCode {
             ExitCode::from(stop.status)
         }
     }
+}
+
+fn run(command: Command) -> Result<(), Stop> {
+    match command {
+        Command::Mesh(arguments) => mesh(&arguments),
+        Command::Check(arguments) => check_file(&arguments),
+        Command::Verify(arguments) => verify_files(&arguments),
+        Command::Delaunay(arguments) => delaunay_of_file(&arguments),
+        Command::Generate(arguments) => generate_file(&arguments),
+        Command::Survey(arguments) => survey(&arguments),
+    }
+}
+
+/// Starts the threads, of which this one is the first: with one thread no other is needed.
+fn start_threads(threads: Option<u16>) -> Result<(), Stop> {
+    // None: as many as there are processors, or as the environment says.
+    let number = threads.map_or(0, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(number);
+    pool.use_current_thread().build_global().map_err(|error| {
+        Stop::failed(format!(
+            "cannot start threads: {error}; --threads 1 needs none"
+        ))
+    })
 }

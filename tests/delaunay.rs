@@ -4,7 +4,7 @@ mod common;
 
 use common::{all_vertices, sorted_tets};
 use proptest::prelude::*;
-use tetflip::delaunay::{DelaunayError, delaunay};
+use tetflip::delaunay::{DelaunayError, delaunay, delaunay_by};
 use tetflip::mesh::{TetMesh, VertexId};
 use tetflip::predicate::{DoublePoints, PointStore};
 
@@ -94,6 +94,71 @@ proptest! {
         }
         let second = common::delaunay_in_order(&points, &order);
         prop_assert_eq!(sorted_tets(&first.mesh), sorted_tets(&second.mesh));
+    }
+}
+
+/// Some hundreds of distinct points of a nasty family.
+fn many() -> impl Strategy<Value = Vec<[f64; 3]>> {
+    let cloud = prop::collection::vec([0.0..1.0, 0.0..1.0, 0.0..1.0f64], 300..900);
+    let kind = 0..6;
+    (cloud, kind).prop_map(|(cloud, kind)| {
+        let nasty = |(i, p): (usize, [f64; 3])| match kind {
+            0 => p,
+            // A lattice, part of which is missing.
+            1 => p.map(|x| (9.0 * x).floor()),
+            // On a sphere, up to rounding.
+            2 => {
+                let r = p.iter().map(|x| (x - 0.5) * (x - 0.5)).sum::<f64>().sqrt();
+                p.map(|x| (x - 0.5) / r)
+            }
+            // On a plane, but a few.
+            3 => [
+                p[0],
+                (5.0 * p[1]).floor(),
+                if i % 50 == 0 { p[2] } else { 0.0 },
+            ],
+            // On a line, and a few elsewhere.
+            4 if i % 9 > 0 => [i as f64, i as f64, 0.0],
+            // Two clusters far from each other.
+            5 => p.map(|x| 1e-6 * x + (i % 2) as f64),
+            _ => p,
+        };
+        let points: std::collections::BTreeSet<[u64; 3]> = cloud
+            .into_iter()
+            .enumerate()
+            .map(|i| nasty(i).map(|x| (x + 0.0).to_bits()))
+            .collect();
+        points.into_iter().map(|p| p.map(f64::from_bits)).collect()
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn any_number_of_threads_inserts_the_same(p in many(), pieces in 2usize..7) {
+        let points = DoublePoints::new(p);
+        let all = all_vertices(&points);
+        let Ok(alone) = delaunay_by(&points, &all, 1) else { return Ok(()) };
+        let together = delaunay_by(&points, &all, pieces).expect("they span space");
+        prop_assert_eq!(together.mesh.check(), Ok(()));
+        prop_assert_eq!(sorted_tets(&alone.mesh), sorted_tets(&together.mesh));
+    }
+}
+
+/// So many points that threads do not get into each other's way everywhere.
+#[test]
+fn threads_share_most_of_the_work() {
+    let n = 60_000u64;
+    let unit = |x: u64| (x.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 20) as f64 / (1u64 << 44) as f64;
+    let points = (0..n).map(|i| [unit(3 * i + 1), unit(7 * i + 2), unit(11 * i + 5)]);
+    let points = DoublePoints::new(points.collect());
+    let all = all_vertices(&points);
+    let alone = delaunay_by(&points, &all, 1).expect("they span space");
+    for pieces in [2, 5] {
+        let together = delaunay_by(&points, &all, pieces).expect("they span space");
+        assert_eq!(together.mesh.check(), Ok(()));
+        assert_eq!(sorted_tets(&alone.mesh), sorted_tets(&together.mesh));
     }
 }
 

@@ -31,5 +31,6 @@ pub mod steiner;
 pub mod suite;
 pub mod table1;
 pub mod table2;
+pub mod threads;
 pub mod turns;
 pub mod updates;

@@ -11,7 +11,7 @@ use tetflip_experiments::family::Member;
 use tetflip_experiments::ledger::{Entry, Ledger};
 use tetflip_experiments::record::{Machine, Results};
 use tetflip_experiments::steiner::rival::Rival;
-use tetflip_experiments::{flip_order, paper, report, rivals, scaling};
+use tetflip_experiments::{flip_order, paper, report, rivals, scaling, threads};
 
 /// The experiments of tetflip: CSV files and plots in results/.
 ///
@@ -63,7 +63,11 @@ enum Verb {
     },
     /// This library as one of the programs that the experiment `rivals` runs.
     #[command(hide = true)]
-    Contestant { what: String, input: PathBuf },
+    Contestant {
+        what: String,
+        input: PathBuf,
+        threads: usize,
+    },
     /// One size of the experiment `scaling`.
     #[command(hide = true)]
     Scale { what: String, size: usize },
@@ -117,6 +121,15 @@ fn names() -> clap::builder::PossibleValuesParser {
 
 fn main() -> ExitCode {
     let Program { command, run } = Program::parse();
+    let number = match &command {
+        Some(Verb::Contestant { threads, .. }) => *threads,
+        _ => 1,
+    };
+    let pool = threads::pool(number);
+    if let Err(error) = pool.build_global() {
+        eprintln!("experiments: {error}");
+        return ExitCode::FAILURE;
+    }
     let done = match command {
         Some(Verb::List) => {
             list();
@@ -133,7 +146,9 @@ fn main() -> ExitCode {
             check,
         }) => write_paper(&results, &output, check),
         Some(Verb::Report { results, output }) => make_report(&results, output),
-        Some(Verb::Contestant { what, input }) => rivals::take_part(&what, &input).map(|()| true),
+        Some(Verb::Contestant { what, input, .. }) => {
+            rivals::take_part(&what, &input).map(|()| true)
+        }
         Some(Verb::Scale { what, size }) => scaling::take_part(&what, size).map(|()| true),
         Some(Verb::Limited {
             seconds,

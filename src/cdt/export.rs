@@ -4,7 +4,7 @@ use super::Cdt;
 use crate::error::{Failure, GaveUp};
 use crate::mesh::{
     ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, SimplexIndex, TetId, VertexId,
-    sort_by_least,
+    canonical_tet, sort_by_least,
 };
 use crate::plc::Plc;
 use crate::predicate::{DoublePoints, PointStore};
@@ -59,7 +59,7 @@ impl Cdt<DoublePoints> {
             let mut tets: Vec<([VertexId; 4], TetId)> = mesh
                 .finite()
                 .filter(|t| marks.kept[t.index()])
-                .map(|t| (canonical(mesh.vertices(t)), t))
+                .map(|t| (canonical_tet(mesh.vertices(t)), t))
                 .collect();
             if tets.is_empty() {
                 return Err(GaveUp::NothingInside.into());
@@ -163,53 +163,5 @@ impl Cdt<DoublePoints> {
         }
         sort_by_least(&mut edges, n, |e| e.vertices[0], |e| e.vertices);
         edges
-    }
-}
-
-/// The even permutation of a tetrahedron that has its smallest vertex first and its second smallest second.
-fn canonical(mut v: [VertexId; 4]) -> [VertexId; 4] {
-    let mut least = 0;
-    for i in 1..4 {
-        if v[i] < v[least] {
-            least = i;
-        }
-    }
-    // A double transposition brings it to the front and keeps the orientation.
-    v = [v[least], v[least ^ 1], v[least ^ 2], v[least ^ 3]];
-    let [a, b, c, d] = v;
-    if b < c && b < d {
-        v
-    } else if c < d {
-        [a, c, d, b]
-    } else {
-        [a, d, b, c]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn canonical_tetrahedra_keep_their_orientation() {
-        let ids = |v: [u32; 4]| v.map(VertexId);
-        assert_eq!(canonical(ids([3, 1, 0, 2])), ids([0, 1, 2, 3]).map(|v| v));
-        // All even permutations of 0123 are one tetrahedron, all odd ones the other.
-        let mut classes = std::collections::BTreeMap::new();
-        for code in 0..256u32 {
-            let v = [code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6];
-            let inversions = (0..4)
-                .flat_map(|i| (i + 1..4).map(move |j| (i, j)))
-                .filter(|&(i, j)| v[i] > v[j]);
-            let odd = inversions.count() % 2;
-            if (0..4).all(|x| v.contains(&x)) {
-                classes
-                    .entry(odd)
-                    .or_insert_with(std::collections::BTreeSet::new)
-                    .insert(canonical(ids(v)));
-            }
-        }
-        assert!(classes.values().all(|c| c.len() == 1));
-        assert_eq!(classes.len(), 2);
     }
 }

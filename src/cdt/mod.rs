@@ -7,7 +7,7 @@
 mod export;
 
 use crate::clock::TaskSeconds;
-use crate::delaunay::delaunay;
+use crate::delaunay::{delaunay, delaunay_by};
 use crate::error::{DeletionRefused, Failure, GaveUp};
 use crate::mesh::{ExportedMesh, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Plc, PlcError};
@@ -113,7 +113,15 @@ impl Cdt<DoublePoints> {
             .filter(|&v| complex.representative[v.index()] == v)
             .collect();
         report.duplicate_vertices = points.len() - distinct.len();
-        let mut delaunay = report.time(Phase::Delaunay, |_| delaunay(&points, &distinct))?;
+        // What flips in a rounded order do may depend on how the tetrahedra are stored, and that on the number of threads.
+        let rounded = matches!(options.insertion, Insertion::Flip(times) if !times.is_exact());
+        let mut delaunay = report.time(Phase::Delaunay, |_| {
+            if rounded {
+                delaunay_by(&points, &distinct, 1)
+            } else {
+                delaunay(&points, &distinct)
+            }
+        })?;
         report.delaunay_tets = delaunay.mesh.finite().count();
         let recovered = report.time(Phase::Segments, |_| {
             recover_segments(&complex, &mut points, &mut delaunay)

@@ -3,7 +3,7 @@
 use super::{Stop, check_outputs, read, save, say};
 use std::path::PathBuf;
 use tetflip::delaunay::delaunay;
-use tetflip::mesh::{ExportedFace, ExportedMesh, TetMesh, VertexId};
+use tetflip::mesh::{ExportedMesh, VertexId};
 use tetflip::plc::{Complex, Plc};
 use tetflip::predicate::DoublePoints;
 
@@ -40,17 +40,8 @@ pub(crate) fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop
     if let Some(path) = &arguments.output {
         // Large inputs: what is not needed any more goes before the next array comes.
         drop((distinct, complex));
-        let faces = hull_faces(&mesh);
-        let mut tets = Vec::with_capacity(tetrahedra);
-        tets.extend(mesh.finite().map(|t| mesh.vertices(t)));
-        drop(mesh);
-        let mesh = ExportedMesh {
-            first_index: vertices_only.first_index,
-            vertices: points.into_vec(),
-            faces,
-            tets,
-            ..ExportedMesh::default()
-        };
+        let first_index = vertices_only.first_index;
+        let mesh = ExportedMesh::of_hull(first_index, points.into_vec(), mesh);
         save(Some(path), &mesh)?;
     }
     if !arguments.quiet {
@@ -59,17 +50,4 @@ pub(crate) fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop
         ));
     }
     Ok(())
-}
-
-/// The triangles of the convex hull, seen from outside.
-fn hull_faces(mesh: &TetMesh) -> Vec<ExportedFace> {
-    let ghosts = mesh
-        .all()
-        .filter_map(|t| Some(t.corner(mesh.slot_of(t, VertexId::INFINITE)?)));
-    ghosts
-        .map(|c| ExportedFace {
-            vertices: mesh.facet(mesh.twin(c)),
-            marker: 0,
-        })
-        .collect()
 }

@@ -1,6 +1,8 @@
 //! From a vertex set to its Delaunay tetrahedralization.
 
-use super::{Delaunay, insertion_order};
+use super::Delaunay;
+use super::order::Rounds;
+use super::parallel::Plan;
 use crate::mesh::VertexId;
 use crate::predicate::PointStore;
 
@@ -18,8 +20,14 @@ pub enum DelaunayError {
     Coplanar(usize),
 }
 
+/// Fewer vertices than these are left to one thread.
+const MANY: usize = 50_000;
+
 /// The Delaunay tetrahedralization of distinct vertices, under the symbolic perturbation of their weights: the same
 /// tetrahedra for every order of `vertices`. Expected O(n log n).
+///
+/// Many vertices are inserted by all threads of the current [`rayon`] pool: the tetrahedra are the same, but their ids depend
+/// on the number of threads.
 ///
 /// # Errors
 /// If the vertices do not span space.
@@ -27,17 +35,41 @@ pub fn delaunay<P: PointStore>(
     points: &P,
     vertices: &[VertexId],
 ) -> Result<Delaunay, DelaunayError> {
+    let threads = if vertices.len() < MANY {
+        1
+    } else {
+        rayon::current_num_threads()
+    };
+    delaunay_by(points, vertices, threads)
+}
+
+/// [`delaunay`] in so many pieces, each inserted by a thread; in one, by the thread that calls.
+///
+/// # Errors
+/// The same.
+pub fn delaunay_by<P: PointStore>(
+    points: &P,
+    vertices: &[VertexId],
+    pieces: usize,
+) -> Result<Delaunay, DelaunayError> {
     assert!(points.len() < 1 << 30, "fewer than 2^30 vertices");
-    let order = insertion_order(points, vertices);
+    let rounds = Rounds::new(points, vertices);
+    let order = rounds.order();
+    let plan = (pieces > 1).then(|| Plan::new(&rounds, pieces));
+    drop(rounds);
     // Work on a copy of the points in the order of insertion: neighbours in space are then neighbours in memory.
     let sorted = points.reordered(&order);
     let local: Vec<VertexId> = (0..order.len()).map(VertexId::new).collect();
     let seed = first_tetrahedron(&sorted, &local)?;
     let mut result = Delaunay::from_tetrahedron(seed);
+    let first = plan.as_ref().map_or(local.len(), Plan::prefix);
     // About 6.7 tetrahedra per vertex for uniform points, and what an insertion holds at the same time.
-    result.mesh.reserve(7 * order.len() + 64);
-    for &v in local.iter().filter(|v| !seed.contains(v)) {
+    result.mesh.reserve(7 * first + 64);
+    for &v in local[..first].iter().filter(|v| !seed.contains(v)) {
         result.insert(&sorted, v);
+    }
+    if let Some(plan) = plan {
+        result = plan.insert_rest(result, &sorted, seed);
     }
     result.mesh.rename_vertices(|v| order[v.index()]);
     Ok(result)

@@ -1,7 +1,7 @@
 //! The insertion of one vertex.
 
 use super::star::{BoundaryFacet, Star};
-use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId, any_infinite};
+use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId, WALL, any_infinite, is_wall};
 use crate::predicate::PointStore;
 
 /// A Delaunay tetrahedralization that grows.
@@ -86,6 +86,27 @@ impl Delaunay {
         self.replace_conflicts(p);
     }
 
+    /// Inserts p into a part of a mesh, from `start`, where it was located, unless what is to be replaced touches other parts
+    /// ([`WALL`]): then nothing changes, and the answer is no.
+    pub(super) fn insert_within<P: PointStore>(
+        &mut self,
+        points: &P,
+        p: VertexId,
+        start: TetId,
+    ) -> bool {
+        if start == WALL {
+            return false;
+        }
+        self.find_conflicts(points, p, start);
+        let facets = self.scratch.boundary.iter();
+        if facets.map(BoundaryFacet::behind).any(|t| t == WALL) {
+            self.hint = Some(start);
+            return false;
+        }
+        self.replace_conflicts(p);
+        true
+    }
+
     /// The second half of an insertion: replaces the conflict zone of p, found just before by
     /// [`Delaunay::find_conflicts`], by the star of p. The star takes the memory of the zone, which is in the cache.
     pub fn replace_conflicts(&mut self, p: VertexId) {
@@ -114,6 +135,10 @@ impl Delaunay {
         let mut t = start.unwrap_or_else(|| mesh.all().next().expect("the mesh has tetrahedra"));
         if let Some(slot) = mesh.slot_of(t, VertexId::INFINITE) {
             t = mesh.neighbor(t.corner(slot));
+            if mesh.is_ghost(t) {
+                // The other side is in another part of the mesh.
+                return t;
+            }
         }
         while let Some(slot) = points.facet_towards(mesh.vertices(t), p) {
             t = mesh.neighbor(t.corner(slot));
@@ -148,6 +173,9 @@ impl Delaunay {
         mut v: [VertexId; 4],
         p: VertexId,
     ) -> bool {
+        if is_wall(v) {
+            return false;
+        }
         let ghost = v.iter().position(|v| v.is_infinite());
         let slot = ghost.expect("a ghost has the vertex at infinity");
         v[slot] = p;
@@ -156,8 +184,10 @@ impl Delaunay {
             return side.is_positive();
         }
         // On the plane of the hull facet: as the finite neighbour, which may be marked already.
-        let (marked, [a, b, c, d]) = self.mesh.unless_marked(self.mesh.neighbor(t.corner(slot)));
-        marked || points.insphere([a, b, c, d, p]).is_positive()
+        let (marked, v) = self.mesh.unless_marked(self.mesh.neighbor(t.corner(slot)));
+        let [a, b, c, d] = v;
+        // Where that is in another part, in conflict: so p is left for later.
+        marked || is_wall(v) || points.insphere([a, b, c, d, p]).is_positive()
     }
 
     /// The first half of an insertion: the conflict zone of p, all tetrahedra whose circumsphere contains p, grown from

@@ -12,10 +12,11 @@
 mod build;
 mod insert;
 mod order;
+mod parallel;
 mod removal;
 mod star;
 
-pub use build::{DelaunayError, delaunay};
+pub use build::{DelaunayError, delaunay, delaunay_by};
 pub use insert::Delaunay;
 pub use order::insertion_order;
 pub use removal::filling;

@@ -5,44 +5,90 @@
 
 use crate::mesh::VertexId;
 use crate::predicate::PointStore;
+use rayon::prelude::*;
 
 /// A round smaller than this is not divided further.
 const SMALLEST_ROUND: u32 = 64;
 /// Bits per coordinate of the Hilbert curve.
 const BITS: u32 = 21;
 
+/// So many vertices are sorted by all threads.
+const MANY: usize = 1 << 15;
+
 /// The given vertices in the order in which to insert them. O(n log n), deterministic.
 pub fn insertion_order<P: PointStore>(points: &P, vertices: &[VertexId]) -> Vec<VertexId> {
-    let (low, scale) = bounding_box(points, vertices);
-    let rounds = (vertices.len() as u32 / SMALLEST_ROUND)
-        .checked_ilog2()
-        .unwrap_or(0)
-        / 2;
-    let mut keyed: Vec<(u64, VertexId)> = vertices
-        .iter()
-        .map(|&v| {
+    Rounds::new(points, vertices).order()
+}
+
+/// The rounds of an order of insertion.
+pub(super) struct Rounds {
+    /// The members of each with their places on the curve, in ascending order.
+    rounds: Vec<Vec<(u64, VertexId)>>,
+}
+
+impl Rounds {
+    /// The rounds of the given vertices. The same for any number of threads.
+    pub fn new<P: PointStore>(points: &P, vertices: &[VertexId]) -> Rounds {
+        let (low, scale) = bounding_box(points, vertices);
+        let last = (vertices.len() as u32 / SMALLEST_ROUND)
+            .checked_ilog2()
+            .unwrap_or(0)
+            / 2;
+        let keyed = |&v: &VertexId| {
             let p = points.rounded(v);
             let cell = [0, 1, 2].map(|i| (((p[i] - low[i]) * scale) as u32).min((1 << BITS) - 1));
-            // 63 bits of curve; a key for each round is its own stretch of the sorted order.
             (hilbert_index(cell), v)
-        })
-        .collect();
-    if rounds == 0 {
-        keyed.sort_unstable();
-        return keyed.into_iter().map(|(_, v)| v).collect();
+        };
+        let by_all_threads = vertices.len() >= MANY && rayon::current_num_threads() > 1;
+        let keyed: Vec<(u64, VertexId)> = if by_all_threads {
+            vertices.par_iter().map(keyed).collect()
+        } else {
+            vertices.iter().map(keyed).collect()
+        };
+        let mut rounds = vec![Vec::new(); last as usize + 1];
+        // A vertex is in the last round with probability 3/4, in the one before with 3/16, and so on.
+        let round = |v: VertexId| last - (mix(u64::from(v.0)).trailing_zeros() / 2).min(last);
+        for (key, v) in keyed {
+            rounds[round(v) as usize].push((key, v));
+        }
+        for members in &mut rounds {
+            if by_all_threads && members.len() >= MANY {
+                members.par_sort_unstable();
+            } else {
+                members.sort_unstable();
+            }
+        }
+        Rounds { rounds }
     }
-    // A vertex is in the last round with probability 3/4, in the one before with 3/16, and so on.
-    let round = |v: VertexId| rounds - (mix(u64::from(v.0)).trailing_zeros() / 2).min(rounds);
-    let mut rounds: Vec<Vec<(u64, VertexId)>> = vec![Vec::new(); rounds as usize + 1];
-    for (key, v) in keyed {
-        rounds[round(v) as usize].push((key, v));
+
+    /// All of them, one after the other.
+    pub fn order(&self) -> Vec<VertexId> {
+        let mut order = Vec::with_capacity(self.rounds.iter().map(Vec::len).sum());
+        for members in &self.rounds {
+            order.extend(members.iter().map(|&(_, v)| v));
+        }
+        order
     }
-    let mut order = Vec::with_capacity(vertices.len());
-    for mut members in rounds {
-        members.sort_unstable();
-        order.extend(members.into_iter().map(|(_, v)| v));
+
+    /// The curve cut into so many pieces, of about as many vertices each: by round, where in the order the pieces begin, and
+    /// at last where the round ends.
+    pub fn cuts(&self, pieces: usize) -> Vec<Vec<usize>> {
+        let last = self.rounds.last().expect("there is a round");
+        let cut = |k: usize| {
+            last.get(last.len() * k / pieces)
+                .map_or(u64::MAX, |&(key, _)| key)
+        };
+        let cuts: Vec<u64> = (1..pieces).map(cut).collect();
+        let mut start = 0;
+        let places = |members: &Vec<(u64, VertexId)>| {
+            let begin = start;
+            start += members.len();
+            let place = |&cut: &u64| begin + members.partition_point(|&(key, _)| key < cut);
+            let inner = cuts.iter().map(place);
+            std::iter::once(begin).chain(inner).chain([start]).collect()
+        };
+        self.rounds.iter().map(places).collect()
     }
-    order
 }
 
 /// The lower corner of the bounding box, and the factor that maps its longest side to the curve's grid.

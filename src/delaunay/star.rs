@@ -47,6 +47,12 @@ impl BoundaryFacet {
             numbers: [0; 3],
         }
     }
+
+    /// The tetrahedron behind it.
+    #[inline]
+    pub fn behind(&self) -> TetId {
+        self.outside.tet()
+    }
 }
 
 impl Default for Star {

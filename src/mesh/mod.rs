@@ -1,17 +1,21 @@
 //! The tetrahedral mesh: topology alone. Nothing here knows a coordinate or a number type.
 
+mod canonical;
 mod export;
 mod flip;
 mod ids;
 mod incidence;
 mod least;
+mod parts;
 mod topology;
 
+pub(crate) use canonical::canonical_tet;
 pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
 pub use incidence::Incidence;
 pub(crate) use least::{Groups, SimplexIndex, sort_by_least};
+pub(crate) use parts::{WALL, is_wall};
 pub(crate) use topology::slot_of;
 pub use topology::{FACET, NEXT, TetMesh, TopologyError};
 

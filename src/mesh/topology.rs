@@ -12,6 +12,7 @@
 
 use super::{Corner, TetId, VertexId, any_infinite};
 use crate::machine::prefetch;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// `FACET[i]` completes `i` to an even permutation of 0123, so `[i, FACET[i]..]` keeps orientation.
@@ -23,24 +24,27 @@ pub const NEXT: [[usize; 4]; 4] = [[4, 2, 3, 1], [3, 4, 0, 2], [1, 3, 4, 0], [2,
 /// A tetrahedralization of a closed 3-sphere: finite tetrahedra and ghosts. See the module's invariants.
 #[derive(Clone, Debug, Default)]
 pub struct TetMesh {
-    tets: Vec<Tet>,
-    free: Vec<TetId>,
+    pub(super) tets: Vec<Tet>,
+    pub(super) free: Vec<TetId>,
 }
 
 /// Vertices and twins side by side: a step across a facet touches one cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-struct Tet {
-    vertices: [VertexId; 4],
-    twins: [Corner; 4],
+pub(super) struct Tet {
+    pub(super) vertices: [VertexId; 4],
+    pub(super) twins: [Corner; 4],
 }
 
 /// The bit of the first vertex that is turned over in a marked tetrahedron. In ids below 2^30, and in that of the vertex at
 /// infinity, it equals the next higher bit.
 const MARK: u32 = 1 << 30;
 
+/// So many tetrahedra are worth the while of several threads.
+const MANY: usize = 1 << 17;
+
 /// A removed tetrahedron, until its id is used again.
-const DEAD: [VertexId; 4] = [VertexId::INFINITE; 4];
+pub(super) const DEAD: [VertexId; 4] = [VertexId::INFINITE; 4];
 
 /// A violated invariant of [`TetMesh`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
@@ -219,13 +223,21 @@ impl TetMesh {
     }
 
     /// Gives every finite vertex a new id.
-    pub fn rename_vertices(&mut self, new_id: impl Fn(VertexId) -> VertexId) {
-        for tet in &mut self.tets {
+    pub fn rename_vertices(&mut self, new_id: impl Fn(VertexId) -> VertexId + Sync) {
+        let rename = |tet: &mut Tet| {
             for v in &mut tet.vertices {
                 if !v.is_infinite() {
                     *v = new_id(*v);
                 }
             }
+        };
+        if self.tets.len() < MANY {
+            self.tets.iter_mut().for_each(rename);
+        } else {
+            self.tets
+                .par_iter_mut()
+                .with_min_len(MANY / 8)
+                .for_each(rename);
         }
     }
 

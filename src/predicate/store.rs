@@ -8,7 +8,7 @@ use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
 ///
 /// The default bodies evaluate the formulas over [`Dyadic`]; an implementation overrides them with filtered versions
 /// that return the same signs sooner.
-pub trait PointStore {
+pub trait PointStore: Sync {
     /// The number of points.
     fn len(&self) -> usize;
 

@@ -101,6 +101,29 @@ fn every_process_writes_the_same_bytes() {
     );
 }
 
+/// Enough of everything for several threads to share it.
+#[test]
+fn any_number_of_threads_writes_the_same_bytes() {
+    let place = Place::with(&[]);
+    place
+        .run("generate terrain --size 120000 --seed 3 -o big.poly")
+        .ends_with(0);
+    let names = ["x.node", "x.ele", "x.face", "x.edge"];
+    for command in ["delaunay big.poly", "mesh big.poly --verify"] {
+        let mut first = None;
+        for threads in [1, 2, 5] {
+            let run = place.run(&format!("{command} -o x.node --threads {threads}"));
+            let run = run.ends_with(0);
+            let files = names.map(|name| std::fs::read(place.path(name)).unwrap_or_default());
+            let (known, said) = first.get_or_insert((files.to_vec(), run.stdout().to_owned()));
+            assert!(*known == files, "{command} --threads {threads}");
+            assert_eq!(*said, run.stdout(), "{command} --threads {threads}");
+        }
+    }
+    let none = place.run("delaunay big.poly --threads 0").ends_with(2);
+    assert!(none.stderr().contains("--threads"), "{}", none.stderr());
+}
+
 #[test]
 fn threads_do_not_disturb_each_other() {
     let place = Place::with(&[("spiky.off", &spiky()), ("wires.poly", &wires())]);

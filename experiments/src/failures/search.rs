@@ -6,6 +6,7 @@ use crate::flip_order::measure::{run, watched};
 use crate::flip_order::plan::name_of;
 use crate::order::Insertion;
 use crate::schoenhardt::Piece;
+use crate::threads;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -84,12 +85,7 @@ pub fn gallery(seeds: u64, context: &Context) -> Vec<Case> {
             bar.inc(1);
         }
     };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(work);
-        }
-    });
+    threads::on_all_processors(work);
     bar.finish_and_clear();
     let papers: Member = PAPERS.parse().expect("a name");
     let first = failure(papers, Times::F64);

@@ -21,6 +21,7 @@ mod row;
 
 use crate::experiment::{Answer, Context, Experiment};
 use crate::family::Member;
+use crate::threads;
 use measure::Measured;
 use plan::Plan;
 use std::error::Error;
@@ -70,14 +71,7 @@ fn measure_all(plan: &Plan, context: &Context) -> Vec<Measured> {
         }
         measured
     };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let mut inputs: Vec<Measured> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        let done = workers
-            .into_iter()
-            .map(|w| w.join().expect("no worker panics"));
-        done.flatten().collect()
-    });
+    let mut inputs = threads::on_all_processors(work).concat();
     bar.finish_and_clear();
     inputs.sort_by_key(|m| m.member.key());
     inputs

@@ -8,8 +8,8 @@ use std::time::Duration;
 /// A program with its way to be called.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Contestant {
-    /// This library.
-    Ours(Ours),
+    /// This library, on so many threads.
+    Ours(Ours, u32),
     /// TetGen: Delaunay tetrahedralization, or a CDT by cavity retriangulation without optimization.
     TetGen {
         /// The program.
@@ -60,7 +60,7 @@ impl Contestant {
     /// What tables call it.
     pub fn name(&self) -> &'static str {
         match self {
-            Contestant::Ours(_) => "tetflip",
+            Contestant::Ours(..) => "tetflip",
             Contestant::TetGen { .. } => "tetgen",
             Contestant::Hxt { .. } => "hxt",
         }
@@ -69,7 +69,7 @@ impl Contestant {
     /// How it is called.
     pub fn method(&self) -> String {
         match self {
-            Contestant::Ours(what) => what.word().to_string(),
+            Contestant::Ours(what, _) => what.word().to_string(),
             Contestant::TetGen { .. } => "cavity".to_string(),
             Contestant::Hxt { .. } => "delaunay".to_string(),
         }
@@ -78,7 +78,7 @@ impl Contestant {
     /// Which release.
     pub fn version(&self) -> String {
         match self {
-            Contestant::Ours(_) => env!("CARGO_PKG_VERSION").to_string(),
+            Contestant::Ours(..) => env!("CARGO_PKG_VERSION").to_string(),
             Contestant::TetGen { version, .. } | Contestant::Hxt { version, .. } => version.clone(),
         }
     }
@@ -86,15 +86,17 @@ impl Contestant {
     /// How many threads it may use.
     pub fn threads(&self) -> u32 {
         match self {
-            Contestant::Hxt { threads, .. } => *threads,
-            _ => 1,
+            Contestant::Ours(_, threads) | Contestant::Hxt { threads, .. } => *threads,
+            Contestant::TetGen { .. } => 1,
         }
     }
 }
 
 /// All that are installed, and the names of those that are not.
 pub fn contestants(context: &Context) -> (Vec<Contestant>, Vec<String>) {
-    let mut programs: Vec<Contestant> = Ours::ALL.map(Contestant::Ours).into();
+    let mut programs: Vec<Contestant> = Ours::ALL.map(|what| Contestant::Ours(what, 1)).into();
+    let on_two = [Ours::Delaunay, Ours::Verifier];
+    programs.extend(on_two.map(|what| Contestant::Ours(what, 2)));
     let mut missing = Vec::new();
     match &context.tetgen {
         Some(program) => programs.push(Contestant::TetGen {

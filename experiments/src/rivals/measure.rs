@@ -54,9 +54,15 @@ pub fn measure(
 fn once(contestant: &Contestant, files: &Files, limit: Duration) -> (Option<Figures>, Ran) {
     let path = files.path.to_string_lossy().into_owned();
     match contestant {
-        Contestant::Ours(what) => {
+        Contestant::Ours(what, threads) => {
             let this = std::env::current_exe().unwrap_or_default();
-            let arguments = ["contestant".to_string(), what.word().to_string(), path];
+            let threads = threads.to_string();
+            let arguments = [
+                "contestant".to_string(),
+                what.word().to_string(),
+                path,
+                threads,
+            ];
             let ran = run(&this.to_string_lossy(), &arguments, limit);
             (of_ours(&ran), ran)
         }
@@ -124,8 +130,8 @@ fn row(
         facets: files.facets,
         program: contestant.name(),
         method: contestant.method(),
-        is_ours: matches!(contestant, Contestant::Ours(_)),
-        verifies: *contestant == Contestant::Ours(Ours::Verifier),
+        is_ours: matches!(contestant, Contestant::Ours(..)),
+        verifies: matches!(contestant, Contestant::Ours(Ours::Verifier, _)),
         version: contestant.version(),
         threads: contestant.threads(),
         runs: runs.len(),

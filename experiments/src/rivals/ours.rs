@@ -34,22 +34,25 @@ pub fn take_part(word: &str, path: &Path) -> Result<(), Box<dyn Error>> {
         _ => Insertion::Cavity,
     };
     let (mesh, constructed, polygons, steiner) = cdt(&plc, insertion)?;
-    let seconds = if what == Ours::Verifier {
+    let (seconds, wall) = if what == Ours::Verifier {
         let options = VerifyOptions {
             domain: Domain::Hull,
             ..VerifyOptions::default()
         };
-        let start = processor_seconds();
+        let (start, wall) = (processor_seconds(), Instant::now());
         let verdict = verify(&plc, &mesh, options);
         if !verdict.is_ok() {
             return Err("the mesh is refused".into());
         }
-        processor_seconds() - start
+        (processor_seconds() - start, Some(wall.elapsed()))
     } else {
-        constructed
+        (constructed, None)
     };
     println!("tetrahedra: {}", mesh.tets.len());
     println!("seconds: {seconds}");
+    if let Some(wall) = wall {
+        println!("wall: {}", wall.as_secs_f64());
+    }
     println!("polygons: {polygons}");
     println!("steiner: {steiner}");
     Ok(())

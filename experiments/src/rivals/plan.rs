@@ -77,6 +77,9 @@ pub struct Plan {
     pub rounds: usize,
 }
 
+/// From how many points on two threads take part, too.
+const LARGE: usize = 100_000;
+
 /// The number of points in the comparisons with other programs.
 pub const MILLION: usize = 1_000_000;
 
@@ -205,13 +208,15 @@ impl Input {
     pub fn is_for(&self, contestant: &Contestant, vertices: usize) -> bool {
         let points = matches!(self.kind, Kind::Points { .. } | Kind::ModelPoints);
         match contestant {
-            Contestant::Ours(Ours::Delaunay) => points,
-            // Most of its time goes into numbers for Python and back, and what two threads gain shows on the largest input.
+            // What two threads gain shows on the largest inputs.
+            Contestant::Ours(Ours::Delaunay | Ours::Verifier, 2..) if vertices < LARGE => false,
+            Contestant::Ours(Ours::Delaunay, _) => points,
+            // Most of its time goes into numbers for Python and back.
             Contestant::Hxt { threads, .. } => {
                 self.name.starts_with("uniform/") && (*threads == 1 || vertices >= MILLION)
             }
-            Contestant::Ours(Ours::Cavity | Ours::Flips) => !points,
-            Contestant::Ours(Ours::Verifier) => {
+            Contestant::Ours(Ours::Cavity | Ours::Flips, _) => !points,
+            Contestant::Ours(Ours::Verifier, _) => {
                 vertices < MILLION && self.kind != Kind::ModelPoints
             }
             Contestant::TetGen { .. } => true,

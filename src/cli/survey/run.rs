@@ -46,7 +46,8 @@ pub(super) fn run(model: &Path, method: Method, settings: &Settings) -> io::Resu
         scratch: scratch.as_ref().map(|directory| directory.path()),
     };
     let mut child = Command::new(this_program()?)
-        .args(["survey", "--worker"])
+        // There are as many runs at once as processors.
+        .args(["survey", "--worker", "--threads", "1"])
         .args(arguments(&job))
         .arg("--")
         .arg(model)
