@@ -9,8 +9,9 @@
 
 use super::gather::Face;
 use super::points::Points;
-use super::{Case, Findings, Violation, threads};
+use super::{Case, Findings, Violation};
 use crate::number::Sign;
+use crate::threads;
 
 /// Fewer faces are one thread's work.
 const FEW: usize = 1 << 16;

@@ -33,9 +33,10 @@ use super::segments::{Fate, axes_of};
 use super::sums::Areas;
 use super::surface::Flood;
 use super::tables::sorted2;
-use super::{Case, Findings, threads};
+use super::{Case, Findings};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use crate::threads;
 use std::sync::OnceLock;
 
 /// A part of a facet outside the domain.

@@ -2,9 +2,9 @@
 //!
 //! O(n) for n tetrahedra, where no vertex has very many: the faces of such a one are sorted.
 
-use super::threads;
 use crate::machine::prefetch;
 use crate::mesh::VertexId;
+use crate::threads;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 

@@ -4,10 +4,10 @@
 use super::places::Places;
 use super::points::{Points, cross, dot, minus};
 use super::tables::sorted2;
-use super::threads;
 use crate::mesh::{ExportedMesh, VertexId};
 use crate::number::{Dyadic, Vec3};
 use crate::plc::Plc;
+use crate::threads;
 use rustc_hash::FxHashMap;
 
 /// Fewer elements are one thread's work.

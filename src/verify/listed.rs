@@ -4,8 +4,9 @@
 
 use super::surface::Surface;
 use super::tables::sorted2;
-use super::{Case, Findings, Violation, threads};
+use super::{Case, Findings, Violation};
 use crate::mesh::{ExportedMesh, VertexId};
+use crate::threads;
 
 /// Fewer elements are one thread's work.
 const FEW: usize = 1 << 12;

@@ -3,10 +3,11 @@
 //!
 //! For n tetrahedra and m points: O(m log m) for the tree, and O(log m) for each tetrahedron of reasonable shape.
 
+use super::Case;
 use super::points::Points;
 use super::tables::{INWARD, Tables};
-use super::{Case, threads};
 use crate::mesh::VertexId;
+use crate::threads;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 

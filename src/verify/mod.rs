@@ -57,7 +57,6 @@ mod surface;
 mod sweep;
 mod tables;
 mod tally;
-mod threads;
 mod verdict;
 mod vertices;
 mod violation;

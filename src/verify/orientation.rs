@@ -2,9 +2,10 @@
 //! the other convention, and is read as its mirror image in the order of vertices.
 
 use super::points::Points;
-use super::{Findings, Place, Violation, threads};
+use super::{Findings, Place, Violation};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use crate::threads;
 use std::borrow::Cow;
 
 /// Fewer tetrahedra are one thread's work.

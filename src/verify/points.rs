@@ -8,12 +8,12 @@ use super::filter::{self, Exactness, Permanent};
 use super::fixed::{self, Scaled};
 use super::formulas::{Insphere, Orient, Side};
 use super::tally::Tally;
-use super::threads;
 use super::words::{self, Cell};
 use crate::machine::prefetch;
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::formula;
+use crate::threads;
 use arrayvec::ArrayVec;
 use rustc_hash::FxHashMap;
 

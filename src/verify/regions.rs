@@ -2,7 +2,8 @@
 //!
 //! Only where mesh and PLC have any: without region points, programs number the parts as they like.
 
-use super::{Case, Findings, Violation, threads};
+use super::{Case, Findings, Violation};
+use crate::threads;
 
 /// Fewer faces are one thread's work.
 const FEW: usize = 1 << 16;

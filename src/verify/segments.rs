@@ -12,8 +12,9 @@ use super::listed::Listed;
 use super::planar::Area;
 use super::points::{cross, dot, minus};
 use super::tables::sorted2;
-use super::{Case, Findings, Violation, threads};
+use super::{Case, Findings, Violation};
 use crate::mesh::VertexId;
+use crate::threads;
 use std::cmp::Ordering;
 
 /// What became of a segment.

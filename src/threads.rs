@@ -19,7 +19,7 @@ fn ranges(n: usize, least: usize) -> Vec<Range<usize>> {
 }
 
 /// What `work` makes of parts of `0..n`, in order.
-pub(super) fn in_parts<T: Send>(
+pub(crate) fn in_parts<T: Send>(
     n: usize,
     least: usize,
     work: impl Fn(Range<usize>) -> T + Sync,
@@ -31,7 +31,7 @@ pub(super) fn in_parts<T: Send>(
 }
 
 /// What `work` makes of each item, in order; by one thread if there are fewer than `least`.
-pub(super) fn each<I: Send, T: Send>(
+pub(crate) fn each<I: Send, T: Send>(
     items: impl ExactSizeIterator<Item = I>,
     least: usize,
     work: impl Fn(I) -> T + Sync,
@@ -44,12 +44,12 @@ pub(super) fn each<I: Send, T: Send>(
 }
 
 /// What `find` makes of each of `0..n`, in order.
-pub(super) fn map<T: Send>(n: usize, least: usize, find: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub(crate) fn map<T: Send>(n: usize, least: usize, find: impl Fn(usize) -> T + Sync) -> Vec<T> {
     joined(in_parts(n, least, |range| range.map(&find).collect()))
 }
 
 /// The elements that `find` pushes for each of `0..n`, in order.
-pub(super) fn collect<T: Send>(
+pub(crate) fn collect<T: Send>(
     n: usize,
     least: usize,
     find: impl Fn(usize, &mut Vec<T>) + Sync,
@@ -62,14 +62,16 @@ pub(super) fn collect<T: Send>(
 }
 
 fn joined<T>(parts: Vec<Vec<T>>) -> Vec<T> {
+    let total: usize = parts.iter().map(Vec::len).sum();
     let mut parts = parts.into_iter();
     let mut all = parts.next().unwrap_or_default();
+    all.reserve_exact(total - all.len());
     parts.for_each(|part| all.extend(part));
     all
 }
 
 /// Sorts what is different wherever it compares different.
-pub(super) fn sort<T: Ord + Send>(items: &mut [T], least: usize) {
+pub(crate) fn sort<T: Ord + Send>(items: &mut [T], least: usize) {
     if items.len() < least || rayon::current_num_threads() == 1 {
         items.sort_unstable();
     } else {
@@ -78,7 +80,7 @@ pub(super) fn sort<T: Ord + Send>(items: &mut [T], least: usize) {
 }
 
 /// How many of `0..n` are such.
-pub(super) fn count(n: usize, least: usize, is_such: impl Fn(usize) -> bool + Sync) -> usize {
+pub(crate) fn count(n: usize, least: usize, is_such: impl Fn(usize) -> bool + Sync) -> usize {
     let parts = in_parts(n, least, |range| range.filter(|&i| is_such(i)).count());
     parts.into_iter().sum()
 }
