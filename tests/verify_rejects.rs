@@ -572,3 +572,17 @@ fn extreme_coordinates_have_a_verdict() {
         assert_eq!(verdict.counts.tets, 4);
     }
 }
+
+/// A facet with an edge at right angles to the rest of it, the mesh of which has all edges: what of it is covered cannot be told.
+#[test]
+fn an_upright_edge_in_a_facet() {
+    let (mut plc, mesh) = cube();
+    let corners = plc.facets[0].polygons[0].clone();
+    let at = |v: VertexId| plc.vertices[v.index()];
+    let differences = |v: VertexId, w: VertexId| (0..3).filter(|&k| at(v)[k] != at(w)[k]).count();
+    let mut others = (0..8).map(VertexId).filter(|v| !corners.contains(v));
+    let above = others.find(|&w| differences(corners[0], w) == 1);
+    let above = above.expect("a cube");
+    plc.facets[0].polygons.push(vec![corners[0], above]);
+    assert_kinds(&run(&plc, &mesh), &["facet upright"]);
+}

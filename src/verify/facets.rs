@@ -358,6 +358,9 @@ fn cells(case: &Case, fates: &[Fate], f: usize, axes: [usize; 2]) -> Option<Vec<
         &distinct(edges.into_iter()),
         &facet.holes,
     );
+    if area.upright.is_some() {
+        return None;
+    }
     let mut boundary = area.boundary();
     boundary.retain(|&e| merged.is_empty() || !merged.contains(&sorted2(e)));
     (!boundary.is_empty()).then_some(boundary)

@@ -115,6 +115,13 @@ impl<'a> Group<'a> {
         cover: &mut PartialCover,
         findings: &mut Findings,
     ) {
+        for (&facet, area) in self.facets.iter().zip(&self.areas) {
+            if let Some(edge) = area.upright {
+                let edge = edge.map(|v| self.case.place(v));
+                findings.report(Violation::FacetUpright { facet, edge });
+                return;
+            }
+        }
         let mut filled = FxHashSet::default();
         let candidates = self.candidates(&mut filled);
         cover.add_candidates(&candidates, self.facets[0]);

@@ -216,7 +216,8 @@ fn is_mergeable(case: &Case, e: usize) -> bool {
             .iter()
             .map(|&e| case.input.edges[e].ends)
             .collect();
-        Area::new(case.points, axes, &edges, &facet.holes).sides(edge.ends)
+        let area = Area::new(case.points, axes, &edges, &facet.holes);
+        area.sides(edge.ends).filter(|_| area.upright.is_none())
     });
     matches!(
         sides,
