@@ -191,7 +191,8 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         tables: &tables,
         input: &input,
         locator: Locator::new(&points, &tables, singles),
-        tolerance: options.tolerance * ulp(points.largest()),
+        // No number is no tolerance.
+        tolerance: options.tolerance.max(0.0) * ulp(points.largest()),
         rounding: VerifyOptions::default().tolerance * ulp(points.largest()),
     };
     let listed = listed::check(&case, &mut findings);
