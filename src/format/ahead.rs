@@ -129,12 +129,7 @@ fn read_pieces<'a, R: Rows, E>(
 }
 
 /// The first pieces of some lines, each of about the size and ending at a line end.
-fn pieces<'a>(
-    mut rest: &'a [u8],
-    size: usize,
-    most: usize,
-    align: impl Fn(&[u8]) -> usize,
-) -> Vec<&'a [u8]> {
+fn pieces(mut rest: &[u8], size: usize, most: usize, align: impl Fn(&[u8]) -> usize) -> Vec<&[u8]> {
     let mut pieces = Vec::new();
     while !rest.is_empty() && pieces.len() < most {
         let end = |b: &u8| matches!(b, b'\n' | b'\r');

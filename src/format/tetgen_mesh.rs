@@ -94,15 +94,25 @@ pub(super) fn write_steiner(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Res
     Ok(())
 }
 
+/// Bytes of a file that is worth another thread.
+const LARGE: u64 = 1 << 20;
+
 /// Reads the files of the stem of `path`; `.face`, `.edge` and `.steiner` may be missing.
 pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
-    let node = Source::open(sibling(path, "node"))?;
-    let (first_index, vertices) = read_node(&node)?;
+    let nodes = || read_node(&Source::open(sibling(path, "node"))?);
+    let ele = || Source::open(sibling(path, "ele"));
+    let size = std::fs::metadata(sibling(path, "ele")).map_or(0, |file| file.len());
+    // While one large file is read line by line, the next one comes into memory.
+    let (nodes, ele) = match size < LARGE {
+        true => (nodes(), ele()),
+        false => rayon::join(nodes, ele),
+    };
+    let (first_index, vertices) = nodes?;
     let numbering = Numbering {
         first: first_index,
         count: vertices.len(),
     };
-    let Tets { tets, regions } = read_ele(&Source::open(sibling(path, "ele"))?, numbering)?;
+    let Tets { tets, regions } = read_ele(&ele?, numbering)?;
     let faces = match Source::open_if_exists(sibling(path, "face"))? {
         Some(source) => read_marked(&source, |line, marker| {
             let vertices = numbering.vertices(line)?;
