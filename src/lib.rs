@@ -21,6 +21,9 @@
 //! prints: bad input and an algorithm that gave up are values ([`error::Failure`]), counts and seconds are a struct
 //! ([`report::Report`]).
 //!
+//! What many vertices, tetrahedra or lines allow to be shared is done by all threads of the current [`rayon`] pool. The results
+//! do not depend on their number.
+//!
 //! # Example
 //!
 //! ```

@@ -100,7 +100,7 @@ proptest! {
 /// Some hundreds of distinct points of a nasty family.
 fn many() -> impl Strategy<Value = Vec<[f64; 3]>> {
     let cloud = prop::collection::vec([0.0..1.0, 0.0..1.0, 0.0..1.0f64], 300..900);
-    let kind = 0..6;
+    let kind = 0..7;
     (cloud, kind).prop_map(|(cloud, kind)| {
         let nasty = |(i, p): (usize, [f64; 3])| match kind {
             0 => p,
@@ -119,6 +119,8 @@ fn many() -> impl Strategy<Value = Vec<[f64; 3]>> {
             ],
             // On a line, and a few elsewhere.
             4 if i % 9 > 0 => [i as f64, i as f64, 0.0],
+            // One point far from the others: they are in one cell of the grid.
+            6 => p.map(|x| 1e-9 * x + if i == 0 { 1.0 } else { 0.0 }),
             // Two clusters far from each other.
             5 => p.map(|x| 1e-6 * x + (i % 2) as f64),
             _ => p,
@@ -136,7 +138,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
-    fn any_number_of_threads_inserts_the_same(p in many(), pieces in 2usize..7) {
+    fn any_number_of_threads_inserts_the_same(p in many(), pieces in 2u16..9) {
         let points = DoublePoints::new(p);
         let all = all_vertices(&points);
         let Ok(alone) = delaunay_by(&points, &all, 1) else { return Ok(()) };

@@ -20,8 +20,8 @@ pub enum DelaunayError {
     Coplanar(usize),
 }
 
-/// Fewer vertices than these are left to one thread.
-const MANY: usize = 50_000;
+/// How many vertices a thread is worth the while for.
+const FOR_ONE: usize = 25_000;
 
 /// The Delaunay tetrahedralization of distinct vertices, under the symbolic perturbation of their weights: the same
 /// tetrahedra for every order of `vertices`. Expected O(n log n).
@@ -35,12 +35,9 @@ pub fn delaunay<P: PointStore>(
     points: &P,
     vertices: &[VertexId],
 ) -> Result<Delaunay, DelaunayError> {
-    let threads = if vertices.len() < MANY {
-        1
-    } else {
-        rayon::current_num_threads()
-    };
-    delaunay_by(points, vertices, threads)
+    let useful = vertices.len() / FOR_ONE;
+    let threads = useful.min(rayon::current_num_threads()).max(1);
+    delaunay_by(points, vertices, u16::try_from(threads).unwrap_or(u16::MAX))
 }
 
 /// [`delaunay`] in so many pieces, each inserted by a thread; in one, by the thread that calls.
@@ -50,7 +47,7 @@ pub fn delaunay<P: PointStore>(
 pub fn delaunay_by<P: PointStore>(
     points: &P,
     vertices: &[VertexId],
-    pieces: usize,
+    pieces: u16,
 ) -> Result<Delaunay, DelaunayError> {
     assert!(points.len() < 1 << 30, "fewer than 2^30 vertices");
     let rounds = Rounds::new(points, vertices);

@@ -38,7 +38,8 @@ pub(super) struct Plan {
 
 impl Plan {
     /// For so many threads.
-    pub fn new(rounds: &Rounds, pieces: usize) -> Plan {
+    pub fn new(rounds: &Rounds, pieces: u16) -> Plan {
+        let pieces = usize::from(pieces);
         let cuts = rounds.cuts(pieces);
         let end = |round: &Vec<usize>| round[pieces];
         let all = cuts.last().map_or(0, end);
@@ -67,20 +68,6 @@ impl Plan {
         self.cuts[self.round(v)][1..self.pieces].partition_point(|&cut| cut <= v.index())
     }
 
-    /// Where a tetrahedron goes: to the piece of two of its vertices, or of the first.
-    fn part(&self, vertices: [VertexId; 4]) -> usize {
-        let mut seen = [usize::MAX; 4];
-        let finite = vertices.iter().filter(|v| !v.is_infinite());
-        for (i, &v) in finite.enumerate() {
-            let piece = self.piece(v);
-            if seen.contains(&piece) {
-                return piece;
-            }
-            seen[i] = piece;
-        }
-        seen[0]
-    }
-
     /// How many vertices of a piece are not in the first rounds.
     fn count(&self, piece: usize) -> usize {
         let later = self.cuts[self.first..].iter();
@@ -100,7 +87,14 @@ impl Plan {
             .collect();
         // The others join the first part in the end.
         room[0] = tets(points.len());
-        let (parts, interface) = first.mesh.split(&room, |vertices| self.part(vertices));
+        let known = (0..self.prefix()).map(VertexId::new);
+        let known: Vec<u16> = known.map(|v| self.piece(v) as u16).collect();
+        let piece = |v: VertexId| match known.get(v.index()) {
+            Some(&piece) => usize::from(piece),
+            // One of the seed.
+            None => self.piece(v),
+        };
+        let (parts, interface) = first.mesh.split(&room, |vertices| part(vertices, piece));
         let grow = |(piece, mesh)| self.grow(piece, mesh, points, seed);
         let grown: Vec<(TetMesh, Vec<VertexId>)> =
             parts.into_par_iter().enumerate().map(grow).collect();
@@ -132,6 +126,7 @@ impl Plan {
                 starts[(v.index() - begin) * STRETCHES / (end - begin)] = t;
             }
         }
+        let is_empty = mesh.all().next().is_none();
         let mut part = Delaunay::from_mesh(mesh);
         let mut left = Vec::new();
         for round in &self.cuts[self.first..] {
@@ -140,6 +135,10 @@ impl Plan {
                 .map(VertexId::new)
                 .filter(|v| !seed.contains(v))
             {
+                if is_empty {
+                    left.push(v);
+                    continue;
+                }
                 let known = &mut starts[(v.index() - begin) * STRETCHES / (end - begin)];
                 let mut start = part.locate(points, v);
                 if start == WALL && *known != WALL {
@@ -155,4 +154,18 @@ impl Plan {
         }
         (part.mesh, left)
     }
+}
+
+/// Where a tetrahedron goes: to the piece of two of its vertices, or of the first.
+fn part(vertices: [VertexId; 4], piece: impl Fn(VertexId) -> usize) -> usize {
+    let mut seen = [usize::MAX; 4];
+    let finite = vertices.iter().filter(|v| !v.is_infinite());
+    for (i, &v) in finite.enumerate() {
+        let piece = piece(v);
+        if seen.contains(&piece) {
+            return piece;
+        }
+        seen[i] = piece;
+    }
+    seen[0]
 }

@@ -7,6 +7,7 @@ mod ids;
 mod incidence;
 mod least;
 mod parts;
+mod replace;
 mod topology;
 
 pub(crate) use canonical::canonical_tet;

@@ -18,7 +18,7 @@ pub(crate) fn is_wall(vertices: [VertexId; 4]) -> bool {
 }
 
 /// The facets between parts, each as its two corners with their parts.
-pub(crate) struct Interface(Vec<[(usize, Corner); 2]>);
+pub(crate) struct Interface(Vec<[(u32, Corner); 2]>);
 
 impl TetMesh {
     /// Divides the mesh: `part` tells where a tetrahedron with the given vertices goes. `room` is for how many tetrahedra
@@ -40,10 +40,10 @@ impl TetMesh {
             }
         };
         let mut parts: Vec<TetMesh> = room.iter().map(empty).collect();
-        let mut places = vec![(usize::MAX, WALL); self.capacity()];
+        let mut places = vec![(u32::MAX, WALL); self.capacity()];
         for t in self.all() {
             let k = part(self.vertices(t));
-            places[t.index()] = (k, parts[k].add(self.vertices(t)));
+            places[t.index()] = (k as u32, parts[k].add(self.vertices(t)));
         }
         let mut interface = Vec::new();
         for t in self.all() {
@@ -52,13 +52,14 @@ impl TetMesh {
                 let twin = self.twin(t.corner(slot));
                 let (other, there) = places[twin.tet().index()];
                 let there = there.corner(twin.slot());
+                let c = here.corner(slot);
                 if other == k {
-                    parts[k].set_twin(here.corner(slot), there);
+                    parts[k as usize].set_twin(c, there);
                     continue;
                 }
-                parts[k].set_twin(here.corner(slot), WALL.corner(0));
+                parts[k as usize].set_twin(c, WALL.corner(0));
                 if t < twin.tet() {
-                    interface.push([(k, here.corner(slot)), (other, there)]);
+                    interface.push([(k, c), (other, there)]);
                 }
             }
         }
@@ -85,7 +86,7 @@ impl TetMesh {
             shifts.push(shift);
         }
         for &sides in &interface.0 {
-            let [c, d] = sides.map(|(part, c)| Corner(c.0 + 4 * shifts[part]));
+            let [c, d] = sides.map(|(part, c)| Corner(c.0 + 4 * shifts[part as usize]));
             whole.glue(c, d);
         }
         whole

@@ -309,6 +309,28 @@ mod tests {
             (rows[2].seconds_over_tetgen, rows[3].seconds_over_tetgen),
             (None, None)
         );
+        let wall = |program, threads, seconds| Row {
+            threads,
+            wall_seconds: Some(seconds),
+            seconds_over_hxt: None,
+            ..row("uniform/1000000", program, "delaunay", 2.0)
+        };
+        let mut walls = [
+            wall("tetflip", 1, 4.0),
+            wall("tetflip", 2, 3.0),
+            wall("hxt", 1, 7.0),
+            wall("hxt", 2, 6.0),
+        ];
+        add_ratios(&mut walls);
+        let of = |r: &Row| {
+            (
+                r.wall_over_one_thread,
+                r.wall_over_hxt_2,
+                r.seconds_over_hxt,
+            )
+        };
+        assert_eq!(of(&walls[0]), (None, None, Some(1.0)));
+        assert_eq!(of(&walls[1]), (Some(0.75), Some(0.5), None));
         let found = targets(&rows);
         let of = |start: &str| {
             let mut found = found.iter().filter(|t| t.what.starts_with(start));
