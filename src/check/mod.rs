@@ -37,6 +37,7 @@ mod findings;
 mod meet;
 mod parts;
 mod rank;
+mod shared;
 mod tree;
 mod triangulate;
 

@@ -25,10 +25,8 @@ type Point = [f64; 3];
 
 /// Cells with no more simplices are not cut.
 const SMALL: usize = 24;
-/// Cells with fewer simplices are one thread's work.
-const SHARED: usize = 1 << 12;
 /// An upper bound on the depth, which is about log2 of the number of simplices.
-const DEEPEST: usize = 64;
+pub(super) const DEEPEST: usize = 64;
 /// A cut must leave at most this part of the pairs.
 const PROGRESS: f64 = 0.85;
 
@@ -38,7 +36,7 @@ pub(super) type Corners = [VertexId; 3];
 /// Simplices in space.
 pub(super) struct Simplices<'a> {
     points: &'a [Point],
-    corners: &'a [Corners],
+    pub(super) corners: &'a [Corners],
     boxes: Vec<Bounds>,
     /// The first edge and the first triangle; vertices come before, so that dimensions are in order.
     starts: [usize; 2],
@@ -46,19 +44,19 @@ pub(super) struct Simplices<'a> {
 
 /// An axis-parallel box.
 #[derive(Clone, Copy)]
-struct Bounds {
+pub(super) struct Bounds {
     low: Point,
     high: Point,
 }
 
 /// All of space.
-const EVERYTHING: Bounds = Bounds {
+pub(super) const EVERYTHING: Bounds = Bounds {
     low: [f64::NEG_INFINITY; 3],
     high: [f64::INFINITY; 3],
 };
 
 /// What becomes of the simplices of a cell.
-enum Step {
+pub(super) enum Step {
     /// They have a common vertex.
     Nothing,
     /// All pairs are visited.
@@ -108,54 +106,13 @@ impl<'a> Simplices<'a> {
         self.divide(&EVERYTHING, all, DEEPEST, visit)
     }
 
-    /// The same by all threads: each collects what `visit` makes of some of the pairs, and `join` joins two such collections.
-    /// Which pairs are visited does not depend on the number of threads; what is collected must not depend on their order.
-    pub fn collect<T: Default + Send>(
-        &self,
-        visit: &(dyn Fn(usize, usize, &mut T) + Sync),
-        join: &(dyn Fn(&mut T, T) + Sync),
-    ) -> T {
-        let all: Vec<u32> = (0..self.corners.len()).map(|i| i as u32).collect();
-        self.divide_shared(&EVERYTHING, all, DEEPEST, visit, join)
-    }
-
-    fn divide_shared<T: Default + Send>(
+    pub(super) fn divide(
         &self,
         cell: &Bounds,
         list: Vec<u32>,
         depth: usize,
-        visit: &(dyn Fn(usize, usize, &mut T) + Sync),
-        join: &(dyn Fn(&mut T, T) + Sync),
-    ) -> T {
-        let mut found = T::default();
-        let mut alone = |i: usize, j: usize| {
-            visit(i, j, &mut found);
-            ControlFlow::Continue(())
-        };
-        let step = if list.len() < SHARED || rayon::current_num_threads() == 1 {
-            let _ = self.divide(cell, list, depth, &mut alone);
-            return found;
-        } else {
-            self.step(cell, list, depth)
-        };
-        match step {
-            Step::Nothing => found,
-            Step::Compare(list) => {
-                let _ = self.compare(&list, &mut alone);
-                found
-            }
-            Step::Halves(halves) => {
-                let [first, second] = halves.map(|(cell, list)| {
-                    move || self.divide_shared(&cell, list, depth - 1, visit, join)
-                });
-                let (mut found, more) = rayon::join(first, second);
-                join(&mut found, more);
-                found
-            }
-        }
-    }
-
-    fn divide(&self, cell: &Bounds, list: Vec<u32>, depth: usize, visit: Visit) -> ControlFlow<()> {
+        visit: Visit,
+    ) -> ControlFlow<()> {
         match self.step(cell, list, depth) {
             Step::Nothing => ControlFlow::Continue(()),
             Step::Compare(list) => self.compare(&list, visit),
@@ -167,7 +124,7 @@ impl<'a> Simplices<'a> {
     }
 
     /// What to do with the simplices of a cell.
-    fn step(&self, cell: &Bounds, list: Vec<u32>, depth: usize) -> Step {
+    pub(super) fn step(&self, cell: &Bounds, list: Vec<u32>, depth: usize) -> Step {
         if list.len() <= SMALL || depth == 0 {
             return Step::Compare(list);
         }
@@ -393,7 +350,7 @@ impl<'a> Simplices<'a> {
     }
 
     /// Visits the pairs of a list.
-    fn compare(&self, list: &[u32], visit: Visit) -> ControlFlow<()> {
+    pub(super) fn compare(&self, list: &[u32], visit: Visit) -> ControlFlow<()> {
         if list.len() <= SMALL {
             return self.compare_lists(list, list, true, visit);
         }

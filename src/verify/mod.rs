@@ -28,6 +28,7 @@ mod accumulator;
 mod adjacency;
 mod cover;
 mod delaunay;
+mod directions;
 mod distance;
 mod domain;
 mod facets;
