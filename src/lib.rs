@@ -45,4 +45,5 @@ pub mod plc;
 pub mod predicate;
 pub mod recover;
 pub mod report;
+mod threads;
 pub mod verify;

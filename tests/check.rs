@@ -484,3 +484,26 @@ proptest! {
         }
     }
 }
+
+/// One thread and three find the same, in the same order: where there is nothing, and where there is a lot. With a limit, the first
+/// conflicts are found.
+#[test]
+fn threads_find_the_same() {
+    let mut plc = tetflip::generate::generate(tetflip::generate::Kind::Terrain, 2, 6000);
+    let found = |plc: &Plc, most| {
+        let [alone, together] = [1, 3].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            pool.build().expect("a pool").install(|| check(plc, most))
+        });
+        assert_eq!(alone, together);
+        alone
+    };
+    assert!(found(&plc, None).is_valid());
+    let n = plc.vertices.len();
+    for i in (0..n).step_by(n / 40) {
+        plc.vertices[i] = plc.vertices[(i + n / 3) % n].map(|x| x + 0.3);
+    }
+    let all = found(&plc, None).conflicts.len();
+    assert!(all > 1000, "{all}");
+    assert_eq!(found(&plc, Some(5)).conflicts.len(), 5);
+}

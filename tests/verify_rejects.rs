@@ -572,3 +572,65 @@ fn extreme_coordinates_have_a_verdict() {
         assert_eq!(verdict.counts.tets, 4);
     }
 }
+
+/// A facet with an edge at right angles to the rest of it, the mesh of which has all edges: what of it is covered cannot be told.
+#[test]
+fn an_upright_edge_in_a_facet() {
+    let (mut plc, mesh) = cube();
+    let corners = plc.facets[0].polygons[0].clone();
+    let at = |v: VertexId| plc.vertices[v.index()];
+    let differences = |v: VertexId, w: VertexId| (0..3).filter(|&k| at(v)[k] != at(w)[k]).count();
+    let mut others = (0..8).map(VertexId).filter(|v| !corners.contains(v));
+    let above = others.find(|&w| differences(corners[0], w) == 1);
+    let above = above.expect("a cube");
+    plc.facets[0].polygons.push(vec![corners[0], above]);
+    assert_kinds(&run(&plc, &mesh), &["facet upright"]);
+}
+
+/// A tetrahedron in a cavity is no part of a convex hull, wherever it is in the list; what is in a cavity ends at facets.
+#[test]
+fn an_island_in_a_cavity() {
+    let (mut plc, mut hollow) = nested(false);
+    plc.holes.push([1.5, 1.25, 1.5]);
+    let n = hollow.vertices.len() as u32;
+    let corners = [
+        [1.1, 1.5, 1.1],
+        [1.3, 1.5, 1.1],
+        [1.1, 1.7, 1.1],
+        [1.1, 1.5, 1.3],
+    ];
+    hollow.vertices.extend(corners);
+    let island = ids([n, n + 1, n + 2, n + 3]);
+    hollow.tets.insert(0, island);
+    for _ in 0..2 {
+        for domain in [Domain::Auto, Domain::Hull, Domain::Inside] {
+            assert_kinds(&run_as(domain, &plc, &hollow), &["boundary not on facet"]);
+        }
+        hollow.tets.reverse();
+    }
+    // With its faces among the facets it is accepted.
+    let first = plc.vertices.len() as u32;
+    plc.vertices.extend(corners);
+    for face in [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]] {
+        plc.facets.push(facet(&face.map(|v| first + v)));
+    }
+    for domain in [Domain::Auto, Domain::Hull, Domain::Inside] {
+        assert_kinds(&run_as(domain, &plc, &hollow), &[]);
+    }
+}
+
+/// A tolerance that is no number, or below zero, forgives nothing.
+#[test]
+fn odd_tolerances() {
+    let (plc, mut mesh) = cube();
+    let with = |mesh: &ExportedMesh, tolerance| {
+        let options = VerifyOptions {
+            tolerance,
+            ..VerifyOptions::default()
+        };
+        verify(&plc, mesh, options).is_ok()
+    };
+    assert!(with(&mesh, f64::NAN) && with(&mesh, -1.0));
+    mesh.vertices[0][0] += 1e-15;
+    assert!(!with(&mesh, f64::NAN) && !with(&mesh, -1e300));
+}

@@ -14,7 +14,11 @@ use crate::recover::embedding::check_embedding;
 use crate::recover::flatten::shims::Repair;
 use crate::recover::rounding::round;
 use crate::report::{Phase, Report};
+use crate::threads;
 use std::borrow::Cow;
+
+/// Fewer tetrahedra are one thread's work.
+const FEW: usize = 1 << 15;
 
 impl Cdt<DoublePoints> {
     /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are in
@@ -56,11 +60,12 @@ impl Cdt<DoublePoints> {
                 Cow::Owned(moved) => SimplexIndex::of_triangles(n, moved.iter()),
             };
             let (mesh, marks) = (&*repair.mesh, &repair.marks);
-            let mut tets: Vec<([VertexId; 4], TetId)> = mesh
-                .finite()
-                .filter(|t| marks.kept[t.index()])
-                .map(|t| (canonical_tet(mesh.vertices(t)), t))
-                .collect();
+            let mut tets = threads::collect(mesh.capacity(), FEW, |i, tets| {
+                let t = TetId::new(i);
+                if marks.kept[i] && mesh.is_alive(t) && !mesh.is_ghost(t) {
+                    tets.push((canonical_tet(mesh.vertices(t)), t));
+                }
+            });
             if tets.is_empty() {
                 return Err(GaveUp::NothingInside.into());
             }
@@ -106,8 +111,11 @@ impl Cdt<DoublePoints> {
     /// The subpolygons of the domain with their markers, and the faces of its boundary.
     fn faces(&self, written: &Repair<DoublePoints>, walls: &SimplexIndex<2>) -> Vec<ExportedFace> {
         let (mesh, marks) = (&*written.mesh, &written.marks);
-        let mut faces = Vec::new();
-        for t in mesh.finite().filter(|t| marks.kept[t.index()]) {
+        let mut faces = threads::collect(mesh.capacity(), FEW, |i, faces| {
+            let t = TetId::new(i);
+            if !marks.kept[i] || !mesh.is_alive(t) || mesh.is_ghost(t) {
+                return;
+            }
             for c in (0..4).map(|slot| t.corner(slot)) {
                 let n = mesh.neighbor(c);
                 // Ghosts are not kept.
@@ -124,7 +132,7 @@ impl Cdt<DoublePoints> {
                     faces.push(ExportedFace { vertices, marker });
                 }
             }
-        }
+        });
         let n = self.points.len();
         sort_by_least(&mut faces, n, |f| f.vertices[0], |f| f.vertices);
         faces

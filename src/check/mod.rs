@@ -37,6 +37,7 @@ mod findings;
 mod meet;
 mod parts;
 mod rank;
+mod shared;
 mod tree;
 mod triangulate;
 
@@ -45,6 +46,7 @@ pub use findings::{Conflict, Findings, Kind, Notes, Part};
 use crate::mesh::VertexId;
 use crate::plc::Plc;
 use parts::Parts;
+use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::ControlFlow;
 use tree::Simplices;
@@ -65,8 +67,13 @@ pub fn check(plc: &Plc, most: Option<usize>) -> Findings {
     let classify = |[first, second]: [u32; 2]| {
         rank::conflict(&plc.vertices, &parts, [first as usize, second as usize])
     };
+    // A few are one thread's work.
+    let conflicts = match found.len() {
+        0..256 => found.into_iter().map(classify).collect(),
+        _ => found.into_par_iter().map(classify).collect(),
+    };
     Findings {
-        conflicts: found.into_iter().map(classify).collect(),
+        conflicts,
         stopped,
         notes: notes(&parts),
         errors: parts.errors,
@@ -177,39 +184,36 @@ impl Search<'_> {
 
         let points = self.points;
         let simplices = Simplices::new(points, &corners, [first_edge, first_triangle]);
-        simplices.pairs(&mut |i, j| {
+        let touch = |i: usize, j: usize| {
             let [p, q] = [i, j].map(|k| corners[k].map(|v| points[v.index()]));
-            let touch = match (faces[i], faces[j]) {
+            match (faces[i], faces[j]) {
                 (Face::Vertex(_), Face::Edge(_)) => contact::point_on_edge(p[0], [q[0], q[1]]),
                 (Face::Vertex(_), _) => contact::point_on_triangle(p[0], q),
                 (Face::Edge(_), Face::Edge(_)) => contact::edges_meet([p[0], p[1]], [q[0], q[1]]),
                 _ => contact::edge_meets_triangle([p[0], p[1]], q),
-            };
-            if touch {
-                self.add_owners(faces[i], faces[j])?;
             }
-            ControlFlow::Continue(())
-        })
+        };
+        if self.most < usize::MAX {
+            // The first ones are wanted.
+            return simplices.pairs(&mut |i, j| match touch(i, j) {
+                true => self.add_owners(faces[i], faces[j]),
+                false => ControlFlow::Continue(()),
+            });
+        }
+        let visit = |i: usize, j: usize, found: &mut FxHashSet<[u32; 2]>| {
+            if touch(i, j) {
+                found.extend(pairs_of_owners(parts, faces[i], faces[j]));
+            }
+        };
+        let join = |found: &mut FxHashSet<[u32; 2]>, more| found.extend(more);
+        self.found.extend(simplices.collect(&visit, &join));
+        ControlFlow::Continue(())
     }
 
     /// Every part of the one simplex is in conflict with every part of the other.
     fn add_owners(&mut self, first: Face, second: Face) -> ControlFlow<()> {
-        let parts = self.parts;
-        let owners = |face: Face| -> Vec<u32> {
-            match face {
-                Face::Vertex(v) => parts.owners_of_vertex(v).to_vec(),
-                Face::Edge(e) => {
-                    let owners = &parts.edge_owners[parts.edges[e].owners.clone()];
-                    owners.iter().map(|owner| owner.part).collect()
-                }
-                Face::Triangle(part) => vec![part],
-            }
-        };
-        let (first, second) = (owners(first), owners(second));
-        for &f in &first {
-            for &g in &second {
-                self.add(f, g)?;
-            }
+        for [f, g] in pairs_of_owners(self.parts, first, second) {
+            self.add(f, g)?;
         }
         ControlFlow::Continue(())
     }
@@ -223,6 +227,25 @@ impl Search<'_> {
         }
         ControlFlow::Continue(())
     }
+}
+
+/// The pairs of a part of one simplex and another part of another, the lower first.
+fn pairs_of_owners(parts: &Parts, first: Face, second: Face) -> Vec<[u32; 2]> {
+    let owners = |face: Face| -> Vec<u32> {
+        match face {
+            Face::Vertex(v) => parts.owners_of_vertex(v).to_vec(),
+            Face::Edge(e) => {
+                let owners = &parts.edge_owners[parts.edges[e].owners.clone()];
+                owners.iter().map(|owner| owner.part).collect()
+            }
+            Face::Triangle(part) => vec![part],
+        }
+    };
+    let (first, second) = (owners(first), owners(second));
+    let pairs = first
+        .iter()
+        .flat_map(|&f| second.iter().map(move |&g| [f.min(g), f.max(g)]));
+    pairs.filter(|[f, g]| f != g).collect()
 }
 
 fn notes(parts: &Parts) -> Notes {

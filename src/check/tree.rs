@@ -26,7 +26,7 @@ type Point = [f64; 3];
 /// Cells with no more simplices are not cut.
 const SMALL: usize = 24;
 /// An upper bound on the depth, which is about log2 of the number of simplices.
-const DEEPEST: usize = 64;
+pub(super) const DEEPEST: usize = 64;
 /// A cut must leave at most this part of the pairs.
 const PROGRESS: f64 = 0.85;
 
@@ -36,7 +36,7 @@ pub(super) type Corners = [VertexId; 3];
 /// Simplices in space.
 pub(super) struct Simplices<'a> {
     points: &'a [Point],
-    corners: &'a [Corners],
+    pub(super) corners: &'a [Corners],
     boxes: Vec<Bounds>,
     /// The first edge and the first triangle; vertices come before, so that dimensions are in order.
     starts: [usize; 2],
@@ -44,9 +44,25 @@ pub(super) struct Simplices<'a> {
 
 /// An axis-parallel box.
 #[derive(Clone, Copy)]
-struct Bounds {
+pub(super) struct Bounds {
     low: Point,
     high: Point,
+}
+
+/// All of space.
+pub(super) const EVERYTHING: Bounds = Bounds {
+    low: [f64::NEG_INFINITY; 3],
+    high: [f64::INFINITY; 3],
+};
+
+/// What becomes of the simplices of a cell.
+pub(super) enum Step {
+    /// They have a common vertex.
+    Nothing,
+    /// All pairs are visited.
+    Compare(Vec<u32>),
+    /// They are divided.
+    Halves([(Bounds, Vec<u32>); 2]),
 }
 
 impl Bounds {
@@ -87,47 +103,52 @@ impl<'a> Simplices<'a> {
     /// with edges and triangles. Some pairs are visited more than once.
     pub fn pairs(&self, visit: Visit) -> ControlFlow<()> {
         let all: Vec<u32> = (0..self.corners.len()).map(|i| i as u32).collect();
-        let cell = Bounds {
-            low: [f64::NEG_INFINITY; 3],
-            high: [f64::INFINITY; 3],
-        };
-        self.divide(&cell, all, DEEPEST, visit)
+        self.divide(&EVERYTHING, all, DEEPEST, visit)
     }
 
-    fn divide(&self, cell: &Bounds, list: Vec<u32>, depth: usize, visit: Visit) -> ControlFlow<()> {
+    pub(super) fn divide(
+        &self,
+        cell: &Bounds,
+        list: Vec<u32>,
+        depth: usize,
+        visit: Visit,
+    ) -> ControlFlow<()> {
+        match self.step(cell, list, depth) {
+            Step::Nothing => ControlFlow::Continue(()),
+            Step::Compare(list) => self.compare(&list, visit),
+            Step::Halves([(left_cell, left), (right_cell, right)]) => {
+                self.divide(&left_cell, left, depth - 1, visit)?;
+                self.divide(&right_cell, right, depth - 1, visit)
+            }
+        }
+    }
+
+    /// What to do with the simplices of a cell.
+    pub(super) fn step(&self, cell: &Bounds, list: Vec<u32>, depth: usize) -> Step {
         if list.len() <= SMALL || depth == 0 {
-            return self.compare(&list, visit);
+            return Step::Compare(list);
         }
         if self.is_fan(&list) {
-            return ControlFlow::Continue(());
+            return Step::Nothing;
         }
         let tight = self.tight(cell, &list);
         let size = |k: usize| 0.5 * tight.high[k] - 0.5 * tight.low[k];
         let mut axes = [0, 1, 2];
         axes.sort_by(|&j, &k| size(k).total_cmp(&size(j)));
         for axis in axes {
-            let Some((cells, halves)) = self.cut(&tight, &list, axis) else {
-                continue;
-            };
-            std::mem::drop(list);
-            let [left, right] = halves;
-            self.divide(&cells[0], left, depth - 1, visit)?;
-            return self.divide(&cells[1], right, depth - 1, visit);
+            if let Some(([low, high], [left, right])) = self.cut(&tight, &list, axis) {
+                return Step::Halves([(low, left), (high, right)]);
+            }
         }
-        if let Some([left, right]) = self.cut_book(&list) {
-            std::mem::drop(list);
-            self.divide(&tight, left, depth - 1, visit)?;
-            return self.divide(&tight, right, depth - 1, visit);
+        if let Some(halves) = self.cut_book(&list) {
+            return Step::Halves(halves.map(|half| (tight, half)));
         }
         for direction in self.across_longest(&list) {
-            let Some([left, right]) = self.cut_across(&tight, &list, direction) else {
-                continue;
-            };
-            std::mem::drop(list);
-            self.divide(&tight, left, depth - 1, visit)?;
-            return self.divide(&tight, right, depth - 1, visit);
+            if let Some(halves) = self.cut_across(&tight, &list, direction) {
+                return Step::Halves(halves.map(|half| (tight, half)));
+            }
         }
-        self.compare(&list, visit)
+        Step::Compare(list)
     }
 
     /// Whether all simplices have one vertex in common.
@@ -329,7 +350,7 @@ impl<'a> Simplices<'a> {
     }
 
     /// Visits the pairs of a list.
-    fn compare(&self, list: &[u32], visit: Visit) -> ControlFlow<()> {
+    pub(super) fn compare(&self, list: &[u32], visit: Visit) -> ControlFlow<()> {
         if list.len() <= SMALL {
             return self.compare_lists(list, list, true, visit);
         }

@@ -6,6 +6,7 @@
 //! file is refused. Words are separated by any blanks; vertices count from 1. The word `End` must be there, so that a
 //! file that was cut is noticed. The binary variant, `.meshb`, is refused.
 
+use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Place, Reason};
 use super::poly::{marker_of, vertex};
 use super::text::Text;
@@ -142,34 +143,42 @@ impl Reader<'_> {
         }
         let token = self.text.anywhere("the number of vertices")?;
         let count = self.text.vertex_count(token)?;
-        for _ in 0..count {
-            let mut point = [0.0; 3];
-            for x in &mut point {
-                let token = self.text.anywhere("a coordinate")?;
-                *x = self.text.real(token)?;
-            }
-            let token = self.text.anywhere("the reference of a vertex")?;
-            self.text.integer(token)?;
-            self.plc.vertices.push(point);
+        let vertices = &mut self.plc.vertices;
+        read_ahead(&mut self.text, count, vertices, vertex_and_reference);
+        while Rows::len(vertices) < count {
+            vertex_and_reference(&mut self.text, vertices)?;
         }
         Ok(())
     }
 
     fn facets<const N: usize>(&mut self) -> Result<(), FormatError> {
-        for _ in 0..self.count("the number of faces")? {
-            let (polygon, marker) = self.element::<N>()?;
-            self.plc.facets.push(Facet {
+        let count = self.count("the number of faces")?;
+        let vertices = self.plc.vertices.len();
+        let read = |text: &mut Text, facets: &mut Vec<Facet>| {
+            let (polygon, marker) = element::<N>(text, vertices)?;
+            facets.push(Facet {
                 polygons: vec![polygon.to_vec()],
                 marker,
                 ..Facet::default()
             });
+            Ok(())
+        };
+        // There may be facets of an earlier section.
+        let mut facets = Vec::new();
+        read_ahead(&mut self.text, count, &mut facets, read);
+        while Rows::len(&facets) < count {
+            read(&mut self.text, &mut facets)?;
+        }
+        match self.plc.facets.is_empty() {
+            true => self.plc.facets = facets,
+            false => self.plc.facets.extend(facets),
         }
         Ok(())
     }
 
     fn edges(&mut self) -> Result<(), FormatError> {
         for _ in 0..self.count("the number of edges")? {
-            let (ends, marker) = self.element::<2>()?;
+            let (ends, marker) = element::<2>(&mut self.text, self.plc.vertices.len())?;
             self.plc.segments.push(Segment { ends, marker });
         }
         Ok(())
@@ -183,17 +192,6 @@ impl Reader<'_> {
             return Err(self.text.error(reason));
         }
         Ok(count)
-    }
-
-    /// The vertices of an element and its reference.
-    fn element<const N: usize>(&mut self) -> Result<([VertexId; N], i32), FormatError> {
-        let mut vertices = [VertexId(0); N];
-        for v in &mut vertices {
-            let token = self.text.anywhere("a vertex")?;
-            *v = vertex(&self.text, token, 1, self.plc.vertices.len())?;
-        }
-        let token = self.text.anywhere("a reference")?;
-        Ok((vertices, marker_of(&self.text, token)?))
     }
 
     /// Skips a section; whether there was anything in it.
@@ -220,4 +218,30 @@ impl Reader<'_> {
         }
         Ok(self.plc)
     }
+}
+
+fn vertex_and_reference(text: &mut Text, vertices: &mut Vec<[f64; 3]>) -> Result<(), FormatError> {
+    let mut point = [0.0; 3];
+    for x in &mut point {
+        let token = text.anywhere("a coordinate")?;
+        *x = text.real(token)?;
+    }
+    let token = text.anywhere("the reference of a vertex")?;
+    text.integer(token)?;
+    vertices.push(point);
+    Ok(())
+}
+
+/// The vertices of an element, of so many, and its reference.
+fn element<const N: usize>(
+    text: &mut Text,
+    count: usize,
+) -> Result<([VertexId; N], i32), FormatError> {
+    let mut vertices = [VertexId(0); N];
+    for v in &mut vertices {
+        let token = text.anywhere("a vertex")?;
+        *v = vertex(text, token, 1, count)?;
+    }
+    let token = text.anywhere("a reference")?;
+    Ok((vertices, marker_of(text, token)?))
 }

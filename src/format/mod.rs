@@ -5,6 +5,7 @@
 //! linear in the file's size whatever its header says, and check the syntax alone; [`crate::plc::Complex::new`] checks
 //! the geometry. What a reader accepts has at least one vertex, finite coordinates, and no corner out of range.
 
+mod ahead;
 mod bytes;
 mod conflicts_vtu;
 mod error;
@@ -23,6 +24,7 @@ mod sniff;
 mod stl;
 mod tetgen_mesh;
 mod text;
+mod vertices;
 mod vtu;
 
 pub use conflicts_vtu::write_conflicts;

@@ -9,6 +9,7 @@
 //! Why not the crate `tobj` (4.0): its errors have no place, it joins objects and splits vertices by material and normal,
 //! and it does not know continued lines.
 
+use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Place, Reason};
 use super::text::Text;
 use crate::mesh::VertexId;
@@ -16,35 +17,96 @@ use crate::plc::{Facet, Plc, Segment};
 
 /// Reads an OBJ file.
 pub fn read_obj(bytes: &[u8]) -> Result<Plc, FormatError> {
-    let mut reader = Reader {
-        text: Text::new(bytes, true),
-        plc: Plc {
-            first_index: 1,
-            ..Plc::default()
-        },
-        ahead: None,
-    };
-    while reader.text.advance() {
-        reader.statement()?;
+    let mut text = Text::new(bytes, true);
+    let mut objects = Objects::default();
+    read_ahead(&mut text, u64::MAX, &mut objects, statement);
+    while text.advance() {
+        statement(&mut text, &mut objects)?;
     }
-    reader.finish()
+    finish(&text, objects)
 }
 
-struct Reader<'a> {
-    text: Text<'a>,
-    plc: Plc,
+/// What statements come to.
+#[derive(Default)]
+struct Objects {
+    vertices: Vec<[f64; 3]>,
+    facets: Vec<Facet>,
+    segments: Vec<Segment>,
     /// The largest index that named a vertex still to come, and its place.
     ahead: Option<(i64, Place)>,
+    /// Whether there are statements before them, so that vertices cannot be counted backwards.
+    is_piece: bool,
+    /// Whether the last statement of a piece goes on after it.
+    is_cut: bool,
 }
 
-impl<'a> Reader<'a> {
+impl Rows for Objects {
+    fn piece(&self) -> Objects {
+        Objects {
+            is_piece: true,
+            ..Objects::default()
+        }
+    }
+
+    fn len(&self) -> u64 {
+        (self.vertices.len() + self.facets.len() + self.segments.len()) as u64
+    }
+
+    fn append(&mut self, next: Objects) -> bool {
+        let vertices = self.vertices.len() + next.vertices.len();
+        // That a vertex is still to come has to be remembered with its line.
+        let is_ahead = |(index, _)| index > vertices as i64;
+        if vertices >= u32::MAX as usize || next.ahead.is_some_and(is_ahead) {
+            return false;
+        }
+        self.vertices.extend(next.vertices);
+        self.facets.extend(next.facets);
+        self.segments.extend(next.segments);
+        true
+    }
+}
+
+fn statement(text: &mut Text, objects: &mut Objects) -> Result<(), FormatError> {
+    Reader { text, objects }.statement()
+}
+
+fn finish(text: &Text, objects: Objects) -> Result<Plc, FormatError> {
+    let last = objects.vertices.len() as i64;
+    if last == 0 {
+        return Err(text.error(Reason::NoVertices));
+    }
+    match objects.ahead {
+        Some((index, place)) if index > last => Err(FormatError::Malformed {
+            place,
+            reason: Reason::IndexOutOfRange {
+                index,
+                first: 1,
+                last,
+            },
+        }),
+        _ => Ok(Plc {
+            first_index: 1,
+            vertices: objects.vertices,
+            facets: objects.facets,
+            segments: objects.segments,
+            ..Plc::default()
+        }),
+    }
+}
+
+struct Reader<'t, 'a> {
+    text: &'t mut Text<'a>,
+    objects: &'t mut Objects,
+}
+
+impl<'a> Reader<'_, 'a> {
     fn statement(&mut self) -> Result<(), FormatError> {
         const CURVES: [&[u8]; 11] = [
             b"cstype", b"curv", b"curv2", b"surf", b"bzp", b"bsp", b"cdc", b"cdp", b"res", b"call",
             b"csh",
         ];
         let Some(keyword) = self.word() else {
-            return Ok(());
+            return self.end();
         };
         match keyword {
             b"v" | b"V" => self.position()?,
@@ -55,7 +117,7 @@ impl<'a> Reader<'a> {
                     n @ 1..=2 => return Err(self.text.error(Reason::ShortFace(n as i64))),
                     _ => {}
                 }
-                self.plc.facets.push(Facet {
+                self.objects.facets.push(Facet {
                     polygons: vec![polygon],
                     ..Facet::default()
                 });
@@ -69,7 +131,7 @@ impl<'a> Reader<'a> {
                 }
                 let ends = line.windows(2).map(|pair| [pair[0], pair[1]]);
                 let segments = ends.map(|ends| Segment { ends, marker: 0 });
-                self.plc.segments.extend(segments);
+                self.objects.segments.extend(segments);
             }
             b"p" | b"P" => {
                 self.corners()?;
@@ -85,7 +147,15 @@ impl<'a> Reader<'a> {
             }
             _ => while self.word().is_some() {},
         }
-        Ok(())
+        self.end()
+    }
+
+    /// The statement is whole.
+    fn end(&self) -> Result<(), FormatError> {
+        match self.objects.is_cut {
+            true => Err(self.text.error(Reason::Truncated("a statement"))),
+            false => Ok(()),
+        }
     }
 
     /// The next word of the statement.
@@ -94,7 +164,7 @@ impl<'a> Reader<'a> {
             let token = self.text.token()?;
             match token.strip_suffix(b"\\") {
                 Some(head) if !self.text.has_word() => {
-                    self.text.next_line();
+                    self.objects.is_cut |= !self.text.next_line() && self.objects.is_piece;
                     if !head.is_empty() {
                         return Some(head);
                     }
@@ -114,11 +184,11 @@ impl<'a> Reader<'a> {
         while let Some(token) = self.word() {
             self.text.number(token)?;
         }
-        let count = self.plc.vertices.len() as u64 + 1;
+        let count = self.objects.vertices.len() as u64 + 1;
         if count >= u64::from(u32::MAX) {
             return Err(self.text.error(Reason::TooManyVertices(count)));
         }
-        self.plc.vertices.push(point);
+        self.objects.vertices.push(point);
         Ok(())
     }
 
@@ -133,7 +203,7 @@ impl<'a> Reader<'a> {
     fn corner(&mut self, token: &[u8]) -> Result<VertexId, FormatError> {
         let mut parts = token.split(|&b| b == b'/');
         let first = parts.next().unwrap_or_default();
-        let text = &self.text;
+        let text = &*self.text;
         let bad = || text.bad(token, "a corner: v, v/vt, v//vn or v/vt/vn");
         let index = text.integer(first).map_err(|_| bad())?;
         for (i, part) in parts.enumerate() {
@@ -141,7 +211,10 @@ impl<'a> Reader<'a> {
                 return Err(bad());
             }
         }
-        let last = self.plc.vertices.len() as i64;
+        let last = self.objects.vertices.len() as i64;
+        if index < 0 && self.objects.is_piece {
+            return Err(bad());
+        }
         let number = if index < 0 { last + 1 + index } else { index };
         if number < 1 || number >= i64::from(u32::MAX) {
             return Err(text.error(Reason::IndexOutOfRange {
@@ -150,27 +223,9 @@ impl<'a> Reader<'a> {
                 last,
             }));
         }
-        if number > last && self.ahead.is_none_or(|(far, _)| number > far) {
-            self.ahead = Some((number, text.place()));
+        if number > last && self.objects.ahead.is_none_or(|(far, _)| number > far) {
+            self.objects.ahead = Some((number, text.place()));
         }
         Ok(VertexId::new((number - 1) as usize))
-    }
-
-    fn finish(self) -> Result<Plc, FormatError> {
-        let last = self.plc.vertices.len() as i64;
-        if last == 0 {
-            return Err(self.text.error(Reason::NoVertices));
-        }
-        match self.ahead {
-            Some((index, place)) if index > last => Err(FormatError::Malformed {
-                place,
-                reason: Reason::IndexOutOfRange {
-                    index,
-                    first: 1,
-                    last,
-                },
-            }),
-            _ => Ok(self.plc),
-        }
     }
 }

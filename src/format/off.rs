@@ -7,9 +7,10 @@
 //! The dimension of `nOFF` stands before the counts, and must be 3; `4OFF` is refused. After `OFF BINARY` see
 //! [`super::off_binary`].
 
+use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Reason};
 use super::off_binary::read_binary;
-use super::poly::vertex;
+use super::poly;
 use super::text::Text;
 use crate::plc::{Facet, Plc};
 
@@ -34,16 +35,16 @@ pub fn read_off(bytes: &[u8]) -> Result<Plc, FormatError> {
     }
 
     let mut plc = Plc::default();
-    for _ in 0..vertices {
+    read_ahead(&mut text, vertices, &mut plc.vertices, vertex);
+    while Rows::len(&plc.vertices) < vertices {
         text.begin("a vertex")?;
-        plc.vertices.push(text.point()?);
-        text.skip_line();
+        vertex(&mut text, &mut plc.vertices)?;
     }
-    for _ in 0..faces {
+    let face = |text: &mut Text, facets: &mut Vec<Facet>| face(text, vertices as usize, facets);
+    read_ahead(&mut text, faces, &mut plc.facets, face);
+    while Rows::len(&plc.facets) < faces {
         text.begin("a face")?;
-        let face = face(&mut text, plc.vertices.len())?;
-        plc.facets.push(face);
-        text.skip_line();
+        face(&mut text, &mut plc.facets)?;
     }
     text.end_file()?;
     Ok(plc)
@@ -102,7 +103,13 @@ fn prefix(text: &mut Text, token: &[u8]) -> Result<u64, FormatError> {
     }
 }
 
-fn face(text: &mut Text, vertices: usize) -> Result<Facet, FormatError> {
+fn vertex(text: &mut Text, vertices: &mut Vec<[f64; 3]>) -> Result<(), FormatError> {
+    vertices.push(text.point()?);
+    text.skip_line();
+    Ok(())
+}
+
+fn face(text: &mut Text, vertices: usize, facets: &mut Vec<Facet>) -> Result<(), FormatError> {
     let token = text.here("the number of corners")?;
     let count = text.count(token, "the number of corners")?;
     match count {
@@ -113,10 +120,12 @@ fn face(text: &mut Text, vertices: usize) -> Result<Facet, FormatError> {
     let mut polygon = Vec::new();
     for _ in 0..count {
         let token = text.anywhere("a corner")?;
-        polygon.push(vertex(text, token, 0, vertices)?);
+        polygon.push(poly::vertex(text, token, 0, vertices)?);
     }
-    Ok(Facet {
+    facets.push(Facet {
         polygons: vec![polygon],
         ..Facet::default()
-    })
+    });
+    text.skip_line();
+    Ok(())
 }

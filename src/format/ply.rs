@@ -9,6 +9,7 @@
 //! any number of elements without properties (a header of 80 bytes fills the memory), does not notice bytes that are left
 //! over, and gives up the places of values, which are needed to say where an index is out of range.
 
+use super::ahead::{Rows, read_ahead};
 use super::bytes::Bytes;
 use super::error::{FormatError, Reason};
 use super::ply_header::{Element, Encoding, Property, Role, Type, header};
@@ -21,7 +22,7 @@ pub fn read_ply(bytes: &[u8]) -> Result<Plc, FormatError> {
     let mut text = Text::new(bytes, false);
     let header = header(&mut text)?;
     let mut body = match header.encoding {
-        Encoding::Ascii => Body::Ascii(text),
+        Encoding::Ascii => Body::Ascii(&mut text),
         encoding => Body::Binary(Bytes::new(
             bytes,
             start_of_numbers(bytes, &text),
@@ -31,14 +32,52 @@ pub fn read_ply(bytes: &[u8]) -> Result<Plc, FormatError> {
     let mut plc = Plc::default();
     for element in &header.elements {
         // Else there would be nothing to read, and possibly often.
-        if !element.properties.is_empty() {
-            for _ in 0..element.count {
-                read_element(&mut body, element, header.vertices, &mut plc)?;
-            }
+        if element.properties.is_empty() {
+            continue;
         }
+        let mut elements = Elements {
+            count: 0,
+            plc: std::mem::take(&mut plc),
+        };
+        if let Body::Ascii(text) = &mut body {
+            let read = |text: &mut Text, elements: &mut Elements| {
+                read_element(&mut Body::Ascii(text), element, header.vertices, elements)
+            };
+            read_ahead(text, element.count, &mut elements, read);
+        }
+        while elements.count < element.count {
+            body.begin(element.role)?;
+            read_element(&mut body, element, header.vertices, &mut elements)?;
+        }
+        plc = elements.plc;
     }
     body.end_file()?;
     Ok(plc)
+}
+
+/// How many elements of one kind have been read, and what all elements come to.
+#[derive(Default)]
+struct Elements {
+    count: u64,
+    plc: Plc,
+}
+
+impl Rows for Elements {
+    fn piece(&self) -> Elements {
+        Elements::default()
+    }
+
+    fn len(&self) -> u64 {
+        self.count
+    }
+
+    fn append(&mut self, next: Elements) -> bool {
+        self.count += next.count;
+        self.plc.vertices.extend(next.plc.vertices);
+        self.plc.facets.extend(next.plc.facets);
+        self.plc.segments.extend(next.plc.segments);
+        true
+    }
 }
 
 /// The offset of the first byte after the header. If its lines end with CR, an LF after the last one is a number's.
@@ -57,12 +96,11 @@ fn read_element(
     body: &mut Body,
     element: &Element,
     vertices: u64,
-    plc: &mut Plc,
+    elements: &mut Elements,
 ) -> Result<(), FormatError> {
     let mut point = [0.0; 3];
     let mut ends = [VertexId(0); 2];
     let mut polygon = Vec::new();
-    body.begin(element.role)?;
     for &property in &element.properties {
         match property {
             Property::Coordinate(i, kind) => point[i] = body.real(kind)?,
@@ -86,6 +124,8 @@ fn read_element(
         }
     }
     body.end()?;
+    elements.count += 1;
+    let plc = &mut elements.plc;
     match element.role {
         Role::Vertex => plc.vertices.push(point),
         Role::Face => plc.facets.push(Facet {
@@ -99,13 +139,13 @@ fn read_element(
 }
 
 /// What follows the header.
-enum Body<'a> {
+enum Body<'t, 'a> {
     /// One element per line.
-    Ascii(Text<'a>),
+    Ascii(&'t mut Text<'a>),
     Binary(Bytes<'a>),
 }
 
-impl Body<'_> {
+impl Body<'_, '_> {
     fn begin(&mut self, role: Role) -> Result<(), FormatError> {
         match self {
             Body::Ascii(text) => text.begin(match role {

@@ -16,13 +16,18 @@
 //! file. Unlike TetGen we check the numbers of the vertices and refuse whatever is left over in a line or at the end,
 //! because it means that a count is wrong.
 
+use super::ahead::{Rows, read_ahead, read_aligned};
 use super::error::{FormatError, Reason};
 use super::text::Text;
+use super::vertices::Vertices;
 use crate::mesh::VertexId;
 use crate::plc::{Facet, Plc, Region, Segment};
 
 /// A list of vertices: the number of the first, and the coordinates.
 type VertexList = (u32, Vec<[f64; 3]>);
+
+/// The number of the first vertex, and how many there are.
+type Numbers = (u32, usize);
 
 /// Which of the two facet lists a file has.
 #[derive(Clone, Copy)]
@@ -106,30 +111,33 @@ fn vertex_list(text: &mut Text) -> Result<VertexList, FormatError> {
     }
     text.end_line()?;
 
-    let mut first = 0;
-    let mut vertices = Vec::new();
-    for i in 0..count as i64 {
+    let mut vertices = Vertices::default();
+    read_ahead(text, count, &mut vertices, numbered_vertex);
+    while vertices.len() < count {
         text.begin("a vertex")?;
-        let token = text.here("the number of a vertex")?;
-        let number = text.integer(token)?;
-        if i == 0 {
-            if !(0..=1).contains(&number) {
-                return Err(text.error(Reason::FirstIndex(number)));
-            }
-            first = number;
-        } else if number != first + i {
-            return Err(text.error(Reason::VertexNumber {
-                found: number,
-                expected: first + i,
-            }));
-        }
-        vertices.push(text.point()?);
-        // Attributes and the marker, which we have no use for.
-        while let Some(token) = text.token() {
-            text.real(token)?;
-        }
+        numbered_vertex(text, &mut vertices)?;
     }
-    Ok((first as u32, vertices))
+    Ok((vertices.first_index(), vertices.points))
+}
+
+fn numbered_vertex(text: &mut Text, vertices: &mut Vertices) -> Result<(), FormatError> {
+    let token = text.here("the number of a vertex")?;
+    let number = text.integer(token)?;
+    if !vertices.may_have(number) {
+        return Err(text.error(match vertices.expected() {
+            None => Reason::FirstIndex(number),
+            Some(expected) => Reason::VertexNumber {
+                found: number,
+                expected,
+            },
+        }));
+    }
+    vertices.push(number, text.point()?);
+    // Attributes and the marker, which we have no use for.
+    while let Some(token) = text.token() {
+        text.real(token)?;
+    }
+    Ok(())
 }
 
 fn facet_list(text: &mut Text, list: FacetList, plc: &mut Plc) -> Result<(), FormatError> {
@@ -141,33 +149,94 @@ fn facet_list(text: &mut Text, list: FacetList, plc: &mut Plc) -> Result<(), For
         None => false,
     };
     text.end_line()?;
-    for _ in 0..count {
-        text.begin("a facet")?;
+    let vertices = (plc.first_index, plc.vertices.len());
+    let mut facets = Facets::default();
+    let read = |text: &mut Text, facets: &mut Facets| {
         let mut facet = match list {
-            FacetList::Poly => poly_facet(text, plc)?,
-            FacetList::Smesh => smesh_facet(text, plc)?,
+            FacetList::Poly => poly_facet(text, vertices)?,
+            FacetList::Smesh => smesh_facet(text, vertices)?,
         };
         if !marked {
             facet.marker = 0;
         }
+        facets.push(facet);
+        Ok::<(), FormatError>(())
+    };
+    let align = |rest: &[u8]| first_facet(rest, |text| read(text, &mut Facets::default()).is_ok());
+    read_aligned(text, count, &mut facets, read, align);
+    while facets.count < count {
+        text.begin("a facet")?;
+        read(text, &mut facets)?;
+    }
+    plc.facets = facets.facets;
+    plc.segments = facets.segments;
+    Ok(())
+}
+
+/// Where a facet probably begins: several can be read from there.
+fn first_facet(bytes: &[u8], reads: impl Fn(&mut Text) -> bool) -> usize {
+    // The lines that are tried, how many facets there must be, and in how many bytes.
+    const LINES: usize = 16;
+    const FACETS: usize = 4;
+    const BYTES: usize = 1 << 13;
+    let bytes = &bytes[..bytes.len().min(BYTES)];
+    let mut text = Text::new(bytes, true);
+    for _ in 0..LINES {
+        let mut trial = text.clone();
+        let begins = (0..FACETS).all(|_| !trial.advance() || reads(&mut trial));
+        if begins || !text.next_line() {
+            break;
+        }
+    }
+    bytes.len() - text.rest().len()
+}
+
+/// What a list of facets comes to.
+#[derive(Default)]
+struct Facets {
+    /// How many there were.
+    count: u64,
+    facets: Vec<Facet>,
+    segments: Vec<Segment>,
+}
+
+impl Facets {
+    fn push(&mut self, facet: Facet) {
+        self.count += 1;
         if facet.polygons.iter().any(|p| p.len() >= 3) {
-            plc.facets.push(facet);
-            continue;
+            self.facets.push(facet);
+            return;
         }
         // Not an area: segments that float in space. Single vertices say nothing.
         for polygon in &facet.polygons {
             if let &[a, b] = &polygon[..] {
-                plc.segments.push(Segment {
+                self.segments.push(Segment {
                     ends: [a, b],
                     marker: facet.marker,
                 });
             }
         }
     }
-    Ok(())
 }
 
-fn poly_facet(text: &mut Text, plc: &Plc) -> Result<Facet, FormatError> {
+impl Rows for Facets {
+    fn piece(&self) -> Facets {
+        Facets::default()
+    }
+
+    fn len(&self) -> u64 {
+        self.count
+    }
+
+    fn append(&mut self, next: Facets) -> bool {
+        self.count += next.count;
+        self.facets.extend(next.facets);
+        self.segments.extend(next.segments);
+        true
+    }
+}
+
+fn poly_facet(text: &mut Text, vertices: Numbers) -> Result<Facet, FormatError> {
     let token = text.here("the number of polygons of a facet")?;
     let polygons = text.count(token, "the number of polygons of a facet")?;
     if polygons == 0 {
@@ -181,11 +250,12 @@ fn poly_facet(text: &mut Text, plc: &Plc) -> Result<Facet, FormatError> {
     text.end_line()?;
     let mut facet = Facet {
         marker,
+        polygons: Vec::with_capacity(polygons.min(4) as usize),
         ..Facet::default()
     };
     for _ in 0..polygons {
         text.begin("a polygon")?;
-        facet.polygons.push(corners(text, plc)?);
+        facet.polygons.push(corners(text, vertices)?);
         text.end_line()?;
     }
     for _ in 0..holes {
@@ -196,8 +266,8 @@ fn poly_facet(text: &mut Text, plc: &Plc) -> Result<Facet, FormatError> {
     Ok(facet)
 }
 
-fn smesh_facet(text: &mut Text, plc: &Plc) -> Result<Facet, FormatError> {
-    let polygons = vec![corners(text, plc)?];
+fn smesh_facet(text: &mut Text, vertices: Numbers) -> Result<Facet, FormatError> {
+    let polygons = vec![corners(text, vertices)?];
     let marker = marker(text)?;
     text.end_line()?;
     Ok(Facet {
@@ -219,7 +289,7 @@ pub(super) fn marker_of(text: &Text, token: &[u8]) -> Result<i32, FormatError> {
     i32::try_from(marker).map_err(|_| text.bad(token, "a marker of 32 bits"))
 }
 
-fn corners(text: &mut Text, plc: &Plc) -> Result<Vec<VertexId>, FormatError> {
+fn corners(text: &mut Text, (first, vertices): Numbers) -> Result<Vec<VertexId>, FormatError> {
     let token = text.here("the number of corners")?;
     let count = text.count(token, "the number of corners")?;
     if count == 0 {
@@ -228,7 +298,7 @@ fn corners(text: &mut Text, plc: &Plc) -> Result<Vec<VertexId>, FormatError> {
     let mut polygon = Vec::new();
     for _ in 0..count {
         let token = text.anywhere("a corner")?;
-        polygon.push(vertex(text, token, plc.first_index, plc.vertices.len())?);
+        polygon.push(vertex(text, token, first, vertices)?);
     }
     Ok(polygon)
 }

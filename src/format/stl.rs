@@ -10,6 +10,7 @@
 //! it misreads binary files with such a header and ASCII files with a blank before it; it reads ASCII coordinates as
 //! `f32`; and its errors have no place.
 
+use super::ahead::{Rows, read_aligned};
 use super::error::{FormatError, Place, Reason};
 use super::text::Text;
 use crate::mesh::VertexId;
@@ -90,33 +91,59 @@ fn read_binary(bytes: &[u8], mesh: &mut Merged) -> Result<(), FormatError> {
 
 fn read_ascii(bytes: &[u8], mesh: &mut Merged) -> Result<(), FormatError> {
     let mut text = Text::new(bytes, false);
-    // Some writers put several solids into one file.
-    while text.advance() {
-        keyword(&mut text, &["solid"])?;
-        text.skip_line();
-        loop {
-            let token = text.anywhere("facet or endsolid")?;
-            if token.eq_ignore_ascii_case(b"endsolid") {
-                text.skip_line();
-                break;
-            }
-            if !token.eq_ignore_ascii_case(b"facet") {
-                return Err(text.bad(token, "facet or endsolid"));
-            }
-            // The normal, which may well be NaN.
-            text.skip_line();
-            keyword(&mut text, &["outer", "loop"])?;
-            let mut corners = [[0.0; 3]; 3];
-            for corner in &mut corners {
-                keyword(&mut text, &["vertex"])?;
-                *corner = text.point()?;
-            }
-            keyword(&mut text, &["endloop", "endfacet"])?;
-            mesh.triangle(corners)
-                .map_err(|reason| text.error(reason))?;
+    while mesh.in_solid || text.advance() {
+        let begins = !mesh.in_solid;
+        statement(&mut text, mesh)?;
+        if begins {
+            read_aligned(&mut text, u64::MAX, mesh, statement, first_facet);
         }
     }
     Ok(())
+}
+
+/// Reads a facet, or that a solid begins or ends. Some writers put several solids into one file.
+fn statement(text: &mut Text, mesh: &mut Merged) -> Result<(), FormatError> {
+    if !mesh.in_solid {
+        keyword(text, &["solid"])?;
+        text.skip_line();
+        mesh.in_solid = true;
+        return Ok(());
+    }
+    let token = text.anywhere("facet or endsolid")?;
+    if token.eq_ignore_ascii_case(b"endsolid") {
+        text.skip_line();
+        mesh.in_solid = false;
+        return Ok(());
+    }
+    if !token.eq_ignore_ascii_case(b"facet") {
+        return Err(text.bad(token, "facet or endsolid"));
+    }
+    // The normal, which may well be NaN.
+    text.skip_line();
+    keyword(text, &["outer", "loop"])?;
+    let mut corners = [[0.0; 3]; 3];
+    for corner in &mut corners {
+        keyword(text, &["vertex"])?;
+        *corner = text.point()?;
+    }
+    keyword(text, &["endloop", "endfacet"])?;
+    mesh.triangle(corners).map_err(|reason| text.error(reason))
+}
+
+/// Where a facet begins, if that is soon.
+fn first_facet(bytes: &[u8]) -> usize {
+    const LINES: usize = 16;
+    let mut text = Text::new(bytes, false);
+    for _ in 0..LINES {
+        let mut line = text.clone();
+        line.next_line();
+        let token = line.token().unwrap_or_default();
+        if token.eq_ignore_ascii_case(b"facet") {
+            break;
+        }
+        text = line;
+    }
+    bytes.len() - text.rest().len()
 }
 
 fn keyword(text: &mut Text, words: &[&'static str]) -> Result<(), FormatError> {
@@ -134,6 +161,37 @@ fn keyword(text: &mut Text, words: &[&'static str]) -> Result<(), FormatError> {
 struct Merged {
     plc: Plc,
     ids: FxHashMap<[u64; 3], VertexId>,
+    /// In a text: whether a solid has begun and not ended.
+    in_solid: bool,
+    /// In the middle of a text: the triangles, to be merged with those before.
+    loose: Option<Vec<[[f64; 3]; 3]>>,
+}
+
+impl Rows for Merged {
+    /// Begins with a facet.
+    fn piece(&self) -> Merged {
+        Merged {
+            in_solid: true,
+            loose: Some(Vec::new()),
+            ..Merged::default()
+        }
+    }
+
+    fn len(&self) -> u64 {
+        let loose = self.loose.as_ref().map_or(0, Vec::len);
+        (self.plc.facets.len() + loose) as u64
+    }
+
+    fn append(&mut self, next: Merged) -> bool {
+        let triangles = next.loose.unwrap_or_default();
+        let vertices = self.plc.vertices.len() + 3 * triangles.len();
+        if !self.in_solid || vertices >= u32::MAX as usize {
+            return false;
+        }
+        triangles.into_iter().for_each(|corners| self.add(corners));
+        self.in_solid = next.in_solid;
+        true
+    }
 }
 
 impl Merged {
@@ -142,6 +200,14 @@ impl Merged {
         if count >= u64::from(u32::MAX) {
             return Err(Reason::TooManyVertices(count));
         }
+        match &mut self.loose {
+            None => self.add(corners),
+            Some(loose) => loose.push(corners),
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, corners: [[f64; 3]; 3]) {
         let polygon = corners.map(|point| {
             // −0 + 0 = 0
             let key = point.map(|x| (x + 0.0).to_bits());
@@ -154,6 +220,5 @@ impl Merged {
             polygons: vec![polygon.to_vec()],
             ..Facet::default()
         });
-        Ok(())
     }
 }

@@ -14,9 +14,11 @@
 //! TetGen 1.5.0 writes. The orientation of tetrahedra in its `.ele` files is ours, det[b−a, c−a, d−a] > 0, so
 //! that vertices keep their order. Time and memory are linear in the size of the files, whatever a header says.
 
+use super::ahead::{Rows, read_ahead};
 use super::lines::{Lines, write_lines};
 use super::mesh_file::Shortest;
-use super::text::Text;
+use super::text::{Text, whole};
+use super::vertices::Vertices;
 use super::{MeshFileError, MeshLineError, sibling};
 use crate::mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, VertexId};
 use crate::predicate::Parameter;
@@ -92,15 +94,25 @@ pub(super) fn write_steiner(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Res
     Ok(())
 }
 
+/// Bytes of a file that is worth another thread.
+const LARGE: u64 = 1 << 20;
+
 /// Reads the files of the stem of `path`; `.face`, `.edge` and `.steiner` may be missing.
 pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
-    let node = Source::open(sibling(path, "node"))?;
-    let (first_index, vertices) = read_node(&node)?;
+    let nodes = || read_node(&Source::open(sibling(path, "node"))?);
+    let ele = || Source::open(sibling(path, "ele"));
+    let size = std::fs::metadata(sibling(path, "ele")).map_or(0, |file| file.len());
+    // While one large file is read line by line, the next one comes into memory.
+    let (nodes, ele) = match size < LARGE {
+        true => (nodes(), ele()),
+        false => rayon::join(nodes, ele),
+    };
+    let (first_index, vertices) = nodes?;
     let numbering = Numbering {
         first: first_index,
         count: vertices.len(),
     };
-    let (tets, regions) = read_ele(&Source::open(sibling(path, "ele"))?, numbering)?;
+    let Tets { tets, regions } = read_ele(&ele?, numbering)?;
     let faces = match Source::open_if_exists(sibling(path, "face"))? {
         Some(source) => read_marked(&source, |line, marker| {
             let vertices = numbering.vertices(line)?;
@@ -144,27 +156,43 @@ fn read_node(source: &Source) -> Result<(u32, Vec<[f64; 3]>), MeshFileError> {
             dimension => Err(MeshLineError::Dimension(dimension)),
         }
     };
-    let mut first = 0;
-    let mut expected = None;
-    let vertices = source.table(header, |line, ()| {
-        let found: i64 = line.number("the vertex number")?;
-        match expected {
-            None if found == 0 || found == 1 => first = u32::from(found == 1),
-            Some(expected) if found == expected => {}
-            _ => {
-                let expected = expected.unwrap_or(1);
-                return Err(MeshLineError::VertexNumber { found, expected });
-            }
+    let vertices: Vertices = source.table(header, |line, (), vertices: &mut Vertices| {
+        let found = line.integer("the vertex number")?;
+        if !vertices.may_have(found) {
+            let expected = vertices.expected().unwrap_or(1);
+            return Err(MeshLineError::VertexNumber { found, expected });
         }
-        expected = Some(found + 1);
-        Ok([line.finite("x")?, line.finite("y")?, line.finite("z")?])
+        let point = [line.finite("x")?, line.finite("y")?, line.finite("z")?];
+        vertices.push(found, point);
+        Ok(())
     })?;
-    Ok((first, vertices))
+    Ok((vertices.first_index(), vertices.points))
 }
 
-type TetsAndRegions = (Vec<[VertexId; 4]>, Vec<f64>);
+/// Tetrahedra and their last attributes, if they have any.
+#[derive(Default)]
+struct Tets {
+    tets: Vec<[VertexId; 4]>,
+    regions: Vec<f64>,
+}
 
-fn read_ele(source: &Source, numbering: Numbering) -> Result<TetsAndRegions, MeshFileError> {
+impl Rows for Tets {
+    fn piece(&self) -> Tets {
+        Tets::default()
+    }
+
+    fn len(&self) -> u64 {
+        self.tets.len() as u64
+    }
+
+    fn append(&mut self, next: Tets) -> bool {
+        self.tets.extend(next.tets);
+        self.regions.extend(next.regions);
+        true
+    }
+}
+
+fn read_ele(source: &Source, numbering: Numbering) -> Result<Tets, MeshFileError> {
     let header = |line: &mut Line| {
         let count = line.number("the number of tetrahedra")?;
         match line.number_or("the number of nodes per tetrahedron", 4)? {
@@ -172,18 +200,17 @@ fn read_ele(source: &Source, numbering: Numbering) -> Result<TetsAndRegions, Mes
             nodes => Err(MeshLineError::NodesPerTet(nodes)),
         }
     };
-    let mut regions = Vec::new();
-    let tets = source.table(header, |line, &attributes| {
-        let _number: i64 = line.number("the tetrahedron number")?;
+    source.table(header, |line, &attributes, rows: &mut Tets| {
+        line.integer("the tetrahedron number")?;
         let tet = numbering.vertices(line)?;
         let mut region = None;
         for _ in 0..attributes {
             region = Some(line.finite("an attribute")?);
         }
-        regions.extend(region);
-        Ok(tet)
-    })?;
-    Ok((tets, regions))
+        rows.tets.push(tet);
+        rows.regions.extend(region);
+        Ok(())
+    })
 }
 
 fn read_steiner(
@@ -191,7 +218,7 @@ fn read_steiner(
     numbering: Numbering,
 ) -> Result<Vec<ExactPosition>, MeshFileError> {
     let header = |line: &mut Line| Ok((line.number("the number of exact positions")?, ()));
-    source.table(header, |line, ()| {
+    source.table(header, |line, (), positions: &mut Vec<_>| {
         let [vertex, a, b] = numbering.vertices(line)?;
         let value = line.finite("t")?;
         let rest = match line.number_or("the rest of t", 0.0)? {
@@ -203,27 +230,29 @@ fn read_steiner(
             }
         };
         let t = Parameter { value, rest };
-        Ok(ExactPosition {
+        positions.push(ExactPosition {
             vertex,
             ends: [a, b],
             t,
-        })
+        });
+        Ok(())
     })
 }
 
 /// A `.face` or `.edge` file, with the columns after the mark ignored.
-fn read_marked<T>(
+fn read_marked<T: Send>(
     source: &Source,
-    read: impl Fn(&mut Line, Marker) -> Result<T, MeshLineError>,
+    read: impl Fn(&mut Line, Marker) -> Result<T, MeshLineError> + Sync,
 ) -> Result<Vec<T>, MeshFileError> {
     let header = |line: &mut Line| {
         let count = line.number("the number of elements")?;
         let marked: i64 = line.number_or("the flag of markers", 0)?;
         Ok((count, Marker { given: marked != 0 }))
     };
-    source.table(header, |line, &marker| {
-        let _number: i64 = line.number("the element number")?;
-        read(line, marker)
+    source.table(header, |line, &marker, elements: &mut Vec<_>| {
+        line.integer("the element number")?;
+        elements.push(read(line, marker)?);
+        Ok(())
     })
 }
 
@@ -236,7 +265,7 @@ struct Marker {
 impl Marker {
     fn read(self, line: &mut Line) -> Result<i32, MeshLineError> {
         if self.given {
-            line.number("the marker")
+            line.marker("the marker")
         } else {
             Ok(0)
         }
@@ -254,7 +283,7 @@ impl Numbering {
     fn vertices<const N: usize>(self, line: &mut Line) -> Result<[VertexId; N], MeshLineError> {
         let mut vertices = [VertexId(0); N];
         for v in &mut vertices {
-            let found: i64 = line.number("a vertex")?;
+            let found = line.integer("a vertex")?;
             let id = found
                 .checked_sub(i64::from(self.first))
                 .and_then(|i| u32::try_from(i).ok());
@@ -293,41 +322,40 @@ impl Source {
     }
 
     /// Reads the header, which returns the count of the lines to follow, and then each of them.
-    fn table<H, T>(
+    fn table<H: Sync, R: Rows + Default>(
         &self,
         header: impl FnOnce(&mut Line) -> Result<(usize, H), MeshLineError>,
-        mut row: impl FnMut(&mut Line, &H) -> Result<T, MeshLineError>,
-    ) -> Result<Vec<T>, MeshFileError> {
-        let mut number = 1;
+        row: impl Fn(&mut Line, &H, &mut R) -> Result<(), MeshLineError> + Sync,
+    ) -> Result<R, MeshFileError> {
         let at = |line, reason| MeshFileError::Line {
             path: self.path.clone(),
             line,
             reason,
         };
         let mut text = Text::new(&self.bytes, true);
-        let mut lines = std::iter::from_fn(|| {
-            let more = text.advance();
-            more.then(|| (text.number_of_line(), Line { rest: text.line() }))
-        });
-        let (first, mut line) = lines.next().ok_or_else(|| at(1, MeshLineError::NoHeader))?;
-        let (promised, header) = header(&mut line).map_err(|reason| at(first, reason))?;
-        // Not Vec::with_capacity(promised): a header may promise anything.
-        let mut rows = Vec::new();
-        for (i, mut line) in lines {
-            number = i;
-            if rows.len() == promised {
-                return Err(at(i, MeshLineError::TooManyLines { promised }));
+        if !text.advance() {
+            return Err(at(1, MeshLineError::NoHeader));
+        }
+        let first = text.number_of_line();
+        let (promised, header) =
+            header(&mut Line::of(&mut text)).map_err(|reason| at(first, reason))?;
+        // No room for `promised` rows is made: a header may promise anything.
+        let mut rows = R::default();
+        let read = |text: &mut Text, rows: &mut R| row(&mut Line::of(text), &header, rows);
+        let mut last = read_ahead(&mut text, promised as u64, &mut rows, read).max(first);
+        while text.advance() {
+            last = text.number_of_line();
+            if rows.len() == promised as u64 {
+                return Err(at(last, MeshLineError::TooManyLines { promised }));
             }
-            rows.push(row(&mut line, &header).map_err(|reason| at(i, reason))?);
+            read(&mut text, &mut rows).map_err(|reason| at(last, reason))?;
         }
-        if rows.len() < promised {
-            let found = rows.len();
-            return Err(at(
-                number.max(first),
-                MeshLineError::TooFewLines { promised, found },
-            ));
+        match rows.len() as usize {
+            found if found < promised => {
+                Err(at(last, MeshLineError::TooFewLines { promised, found }))
+            }
+            _ => Ok(rows),
         }
-        Ok(rows)
     }
 }
 
@@ -338,6 +366,13 @@ struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
+    /// The rest of the current line.
+    fn of(text: &mut Text<'a>) -> Line<'a> {
+        let rest = text.line();
+        text.skip_line();
+        Line { rest }
+    }
+
     fn next(&mut self) -> Option<&'a [u8]> {
         let blank = |b: &u8| b.is_ascii_whitespace();
         let start = self.rest.iter().position(|b| !blank(b) && *b != b',')?;
@@ -352,6 +387,17 @@ impl<'a> Line<'a> {
     fn number<T: FromStr>(&mut self, what: &'static str) -> Result<T, MeshLineError> {
         let field = self.next().ok_or(MeshLineError::Missing(what))?;
         parse(field, what)
+    }
+
+    fn integer(&mut self, what: &'static str) -> Result<i64, MeshLineError> {
+        let field = self.next().ok_or(MeshLineError::Missing(what))?;
+        whole(field).map_or_else(|| parse(field, what), Ok)
+    }
+
+    fn marker(&mut self, what: &'static str) -> Result<i32, MeshLineError> {
+        let field = self.next().ok_or(MeshLineError::Missing(what))?;
+        let marker = whole(field).and_then(|marker| i32::try_from(marker).ok());
+        marker.map_or_else(|| parse(field, what), Ok)
     }
 
     /// A field at the end of a header that may be left out.
@@ -392,4 +438,27 @@ fn shown(field: &[u8]) -> String {
         .take(40)
         .flat_map(char::escape_default)
         .collect()
+}
+
+/// What is in one file with an extension, of a mesh with 60 vertices that count from 1.
+#[cfg(test)]
+pub(super) fn read_table(extension: &str, bytes: &[u8]) -> Result<String, String> {
+    let source = Source {
+        path: PathBuf::from(extension),
+        bytes: bytes.to_vec(),
+    };
+    let numbering = Numbering {
+        first: 1,
+        count: 60,
+    };
+    let result = match extension {
+        "node" => read_node(&source).map(|found| format!("{found:?}")),
+        "ele" => read_ele(&source, numbering)
+            .map(|found| format!("{:?} {:?}", found.tets, found.regions)),
+        _ => read_marked(&source, |line, marker| {
+            Ok((numbering.vertices::<3>(line)?, marker.read(line)?))
+        })
+        .map(|found| format!("{found:?}")),
+    };
+    result.map_err(|error| error.to_string())
 }

@@ -6,6 +6,7 @@
 use super::error::{FormatError, Place, Reason};
 
 /// A reader of the words of a text file.
+#[derive(Clone)]
 pub(super) struct Text<'a> {
     /// What follows the current line.
     rest: &'a [u8],
@@ -25,6 +26,23 @@ impl<'a> Text<'a> {
             number: 0,
             comments,
         }
+    }
+
+    /// Before the first line of a piece of the file, from which its lines are counted.
+    pub fn piece(&self, bytes: &'a [u8]) -> Text<'a> {
+        Text {
+            rest: bytes,
+            line: &[],
+            number: 0,
+            comments: self.comments,
+        }
+    }
+
+    /// Drops the rest of the current line, and some bytes, which are so many lines.
+    pub fn skip(&mut self, bytes: usize, lines: usize) {
+        self.rest = &self.rest[bytes..];
+        self.line = &[];
+        self.number += lines;
     }
 
     /// Goes to the next line that has a word; false at the end of the file.
@@ -149,7 +167,10 @@ impl<'a> Text<'a> {
 
     /// A whole number.
     pub fn integer(&self, token: &[u8]) -> Result<i64, FormatError> {
-        self.parse(token, "a whole number")
+        match whole(token) {
+            Some(number) => Ok(number),
+            None => self.parse(token, "a whole number"),
+        }
     }
 
     /// A whole number from 0.
@@ -216,6 +237,26 @@ impl<'a> Text<'a> {
     }
 }
 
+/// The whole number that a word with few digits is, as most are; `str::parse` would say the same.
+pub(super) fn whole(token: &[u8]) -> Option<i64> {
+    let digits = token.strip_prefix(b"-").unwrap_or(token);
+    if !(1..=18).contains(&digits.len()) {
+        return None;
+    }
+    let mut number = 0;
+    for digit in digits {
+        match digit.wrapping_sub(b'0') {
+            digit @ 0..=9 => number = 10 * number + i64::from(digit),
+            _ => return None,
+        }
+    }
+    Some(if digits.len() < token.len() {
+        -number
+    } else {
+        number
+    })
+}
+
 /// Whether a word is a number but for a comma: `1,5` or `-2,50e3`.
 fn has_decimal_comma(token: &[u8]) -> bool {
     let text = std::str::from_utf8(token).unwrap_or_default();
@@ -269,8 +310,27 @@ mod tests {
                 text.error(reason).to_string()
             );
         }
-        for bad in [&b"1.0"[..], b"0x1", b"99999999999999999999"] {
+        for bad in [
+            &b"1.0"[..],
+            b"0x1",
+            b"99999999999999999999",
+            b"-",
+            b"--1",
+            b"+-1",
+        ] {
             assert!(text.integer(bad).is_err(), "{bad:?}");
+        }
+        for good in [
+            "0",
+            "-0",
+            "+7",
+            "-12",
+            "000000000000000000000012",
+            "999999999999999999",
+            "-9223372036854775808",
+        ] {
+            let number = text.integer(good.as_bytes()).unwrap();
+            assert_eq!(number, good.parse::<i64>().unwrap());
         }
         assert!(text.count(b"-1", "it").is_err());
     }

@@ -4,6 +4,7 @@
 //! work. O(n + k log d) for k simplices on n vertices, of which d at most have the same least vertex; O(log d) for a look-up.
 
 use super::VertexId;
+use crate::threads;
 
 /// Items of which `start[v]..start[v + 1]` have the least vertex v.
 #[derive(Clone, Debug, Default)]
@@ -12,7 +13,10 @@ pub(crate) struct Groups<T> {
     items: Vec<T>,
 }
 
-impl<T: Copy> Groups<T> {
+/// Fewer items are sorted by one thread.
+const FEW: usize = 1 << 15;
+
+impl<T: Copy + Send> Groups<T> {
     /// Groups items, each with its least vertex, which is below `n`; they keep their order in each group.
     pub(crate) fn new(n: usize, items: impl Iterator<Item = (VertexId, T)> + Clone) -> Groups<T> {
         // Two places ahead, so that the places one ahead can move from the starts of the groups to their ends.
@@ -50,28 +54,41 @@ impl<T: Copy> Groups<T> {
     }
 
     /// The items of all groups, for the last time, sorted by key in each group.
-    pub(crate) fn into_sorted<K: Ord>(mut self, key: impl Fn(&T) -> K) -> Vec<T> {
+    pub(crate) fn into_sorted<K: Ord>(mut self, key: impl Fn(&T) -> K + Sync) -> Vec<T> {
         self.sort_groups(key);
         self.items
     }
 
-    /// Sorts the items of each group.
-    pub(crate) fn sort_groups<K: Ord>(&mut self, key: impl Fn(&T) -> K) {
-        for range in self.start.windows(2) {
-            let group = &mut self.items[range[0] as usize..range[1] as usize];
-            if group.len() > 1 {
-                group.sort_unstable_by_key(&key);
+    /// Sorts the items of each group; several threads share the groups.
+    pub(crate) fn sort_groups<K: Ord>(&mut self, key: impl Fn(&T) -> K + Sync) {
+        let sort = |(start, items): (&[u32], &mut [T])| {
+            for range in start.windows(2) {
+                let [from, to] = [range[0] - start[0], range[1] - start[0]];
+                let group = &mut items[from as usize..to as usize];
+                if group.len() > 1 {
+                    group.sort_unstable_by_key(&key);
+                }
             }
+        };
+        let mut parts = Vec::new();
+        let (mut start, mut items) = (&self.start[..], &mut self.items[..]);
+        while items.len() >= 2 * FEW {
+            let cut = start.partition_point(|&s| ((s - start[0]) as usize) < FEW);
+            let (own, rest) = items.split_at_mut((start[cut] - start[0]) as usize);
+            parts.push((&start[..=cut], own));
+            (start, items) = (&start[cut..], rest);
         }
+        parts.push((start, items));
+        threads::each(parts.into_iter(), 2, sort);
     }
 }
 
 /// Sorts simplices on n vertices by a key of which their least vertex, which `least` returns, is the first part.
-pub(crate) fn sort_by_least<T: Copy, K: Ord>(
+pub(crate) fn sort_by_least<T: Copy + Send, K: Ord>(
     items: &mut Vec<T>,
     n: usize,
     least: impl Fn(&T) -> VertexId,
-    key: impl Fn(&T) -> K,
+    key: impl Fn(&T) -> K + Sync,
 ) {
     // Few of many vertices.
     if items.len() < n / 8 {
@@ -90,6 +107,11 @@ pub(crate) struct SimplexIndex<const K: usize>(Groups<([VertexId; K], u32)>);
 const MOST_IN_A_ROW: usize = 8;
 
 impl<const K: usize> SimplexIndex<K> {
+    /// Whether there is none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.items.is_empty()
+    }
+
     fn new(
         n: usize,
         items: impl Iterator<Item = (VertexId, ([VertexId; K], u32))> + Clone,

@@ -7,6 +7,10 @@ use crate::error::InvalidPlc;
 use crate::mesh::{Incidence, SimplexIndex, TetId, TetMesh};
 use crate::plc::Plc;
 use crate::predicate::PointStore;
+use crate::threads;
+
+/// Fewer tetrahedra are one thread's work.
+const FEW: usize = 1 << 16;
 
 /// Which tetrahedra are in the domain, and their region attributes.
 #[derive(Clone, Debug, Default)]
@@ -34,7 +38,12 @@ pub(crate) fn mark_domain<P: PointStore>(
         component: vec![u32::MAX; mesh.capacity()],
     };
     let mut kept_component = vec![keep_hull];
-    flood.fill(mesh.all().filter(|&t| mesh.is_ghost(t)).collect(), 0);
+    if walls.is_empty() {
+        // Nothing divides them.
+        mesh.all().for_each(|t| flood.component[t.index()] = 0);
+    } else {
+        flood.fill(mesh.all().filter(|&t| mesh.is_ghost(t)).collect(), 0);
+    }
     for t in mesh.finite() {
         if flood.component[t.index()] == u32::MAX {
             let id = kept_component.len() as u32;
@@ -71,9 +80,9 @@ pub(crate) fn mark_domain<P: PointStore>(
     let of = |t: usize| component[t] as usize;
     let alive = |t: usize| component[t] != u32::MAX;
     Ok(DomainMarks {
-        kept: (0..component.len())
-            .map(|t| alive(t) && kept_component[of(t)] && !mesh.is_ghost(TetId::new(t)))
-            .collect(),
+        kept: threads::map(component.len(), FEW, |t| {
+            alive(t) && kept_component[of(t)] && !mesh.is_ghost(TetId::new(t))
+        }),
         region: if plc.regions.is_empty() {
             Vec::new()
         } else {

@@ -17,6 +17,12 @@
 //! which no face of B divides by 1. So the winding number is the same outside all of them, and fact 2 is checked for one
 //! face of each shell ([`super::winding`], called by [`super::domain`]). Where the tetrahedra do not even match at their
 //! faces, this file says instead which tetrahedra contain the centroids of boundary faces of others.
+//!
+//! # What a tolerance leaves open
+//! With a tolerance above zero, faces of B with rounded vertices are on their facets up to it only, and fact 1 holds up to it
+//! only: where two facets, or two parts of one that is not flat, are nearer to each other than twice the tolerance, without
+//! a common vertex there, such faces may cross, and tetrahedra overlap in a layer thinner than that. That is not looked for,
+//! as fact 2 is checked for one face of each shell. With tolerance 0, or without rounded vertices, nothing is left open.
 
 use super::{Case, Findings, Violation, locate};
 

@@ -11,6 +11,10 @@ use super::gather::Face;
 use super::points::Points;
 use super::{Case, Findings, Violation};
 use crate::number::Sign;
+use crate::threads;
+
+/// Fewer faces are one thread's work.
+const FEW: usize = 1 << 16;
 
 /// The faces whose tetrahedra do not just have empty circumspheres.
 #[derive(Default)]
@@ -54,8 +58,9 @@ pub(super) fn check(
 ) {
     let (faces, spheres) = (&case.tables.faces, &case.tables.spheres);
     let inner = case.tables.total - case.tables.boundary().len();
-    let covering = (0..faces.len()).filter(|&f| constrained[f] && faces[f].is_shared());
-    findings.counts.unconstrained_faces = inner - covering.count();
+    let is_covering = |f: usize| constrained[f] && faces[f].is_shared();
+    let covering = threads::count(faces.len(), FEW, is_covering);
+    findings.counts.unconstrained_faces = inner - covering;
     let free = |f: &&usize| !constrained[**f];
     let cospherical = spheres.cospherical.iter().filter(free).count();
     findings.counts.cospherical_faces = cospherical + spheres.cospherical_elsewhere;

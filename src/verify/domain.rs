@@ -4,8 +4,9 @@
 //! empty space ([`super::shells`]) holds a hole point, and no hole point is in a tetrahedron. The facets outside the domain
 //! count as walls of the empty space, so that a closed chamber without tetrahedra is found, too.
 //!
-//! *Hull*: the outer boundary is convex ([`super::hull`]) and all of the input is in the mesh; voids are as above, but a
-//! hole point may be meshed, as there are two opinions on what a hole is in a mesh that keeps its convex hull.
+//! *Hull*: the outer boundary is convex ([`super::hull`]) and all of the input is in the mesh; voids are as above, and so is what
+//! is in them, but a hole point may be meshed, as there are two opinions on what a hole is in a mesh that keeps its convex
+//! hull.
 //!
 //! In both cases the volumes of the tetrahedra add up to the volume that the boundary encloses. Six times the volume of a
 //! tetrahedron is the sum of the cones from the origin over its four faces, and the cones over a face from both sides
@@ -48,10 +49,13 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
             });
         }
     }
-    let outer_faces = || outer.iter().flat_map(|shell| shell.faces.iter().copied());
     let hull = |findings: &mut Findings| {
-        let boundary = Boundary::new(case, outer_faces().collect(), 1);
-        hull::check(case, &outer, &boundary, findings);
+        // What is in voids of the largest is no part of the hull, and ends at facets.
+        let (islands, bodies) = islands(case, &outer);
+        let faces = bodies.iter().flat_map(|shell| shell.faces.iter().copied());
+        let boundary = Boundary::new(case, faces.collect(), 1);
+        hull::check(case, &bodies, &boundary, findings);
+        boundary_on_facets(case, cover, &islands, findings);
     };
     let is_hull = match case.options.domain {
         Domain::Hull => true,
@@ -79,6 +83,21 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
     }
     boundary_on_facets(case, cover, &voids, findings);
     holes(case, &voids, is_hull, findings);
+}
+
+/// The shells of positive volume: those that the largest winds around, and it and the others. (Shells do not cross: one vertex
+/// tells which, unless it is on the largest.)
+fn islands<'s>(case: &Case, outer: &[&'s Shell]) -> (Vec<&'s Shell>, Vec<&'s Shell>) {
+    let smaller = |s: &Shell, t: &Shell| (t.volume.clone() - &s.volume).exact_sign().is_positive();
+    let shells = outer.iter().copied();
+    let Some(largest) = shells.reduce(|s, t| if smaller(s, t) { t } else { s }) else {
+        return (Vec::new(), Vec::new());
+    };
+    let hull = Boundary::new(case, largest.faces.clone(), outer.len());
+    outer.iter().copied().partition(|shell| {
+        let mut vertices = shell.triangles.iter().take(1).flatten();
+        !std::ptr::eq(*shell, largest) && vertices.any(|&v| hull.winding(&[v]) == Some(1))
+    })
 }
 
 /// Outside of each shell there is no tetrahedron ([`super::adjacency`]).

@@ -36,6 +36,8 @@ use super::tables::sorted2;
 use super::{Case, Findings};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use crate::threads;
+use std::sync::OnceLock;
 
 /// A part of a facet outside the domain.
 pub(super) struct OutsidePart {
@@ -51,16 +53,54 @@ pub(super) struct OutsidePart {
 pub(super) struct Cover {
     /// For each mesh face, whether it is one of those that cover a facet.
     pub(super) constrained: Vec<bool>,
-    /// A facet for each candidate, [`usize::MAX`] for other faces.
-    pub(super) facet_of: Vec<usize>,
+    /// The first facet of each candidate, [`NONE`] for other faces.
+    facet_of: Vec<u32>,
     /// The exempt parts.
     pub(super) outside: Vec<OutsidePart>,
 }
 
+/// No facet.
+const NONE: u32 = u32::MAX;
+
 impl Cover {
     /// A facet whose candidate the face is.
     pub(super) fn facet_of(&self, face: usize) -> Option<usize> {
-        Some(self.facet_of[face]).filter(|&f| f != usize::MAX)
+        Some(self.facet_of[face] as usize).filter(|&f| f != NONE as usize)
+    }
+
+    fn append(&mut self, part: PartialCover) {
+        for f in part.constrained {
+            self.constrained[f as usize] = true;
+        }
+        for (f, facet) in part.candidates {
+            let of = &mut self.facet_of[f as usize];
+            *of = (*of).min(facet);
+        }
+        self.outside.extend(part.outside);
+    }
+}
+
+/// What one thread says of some of the facets.
+#[derive(Default)]
+pub(super) struct PartialCover {
+    /// The mesh faces that cover them.
+    constrained: Vec<u32>,
+    /// Their candidates, each with a facet.
+    candidates: Vec<(u32, u32)>,
+    /// Their exempt parts.
+    pub(super) outside: Vec<OutsidePart>,
+}
+
+impl PartialCover {
+    /// The faces are candidates.
+    pub(super) fn add_candidates(&mut self, faces: &[usize], facet: usize) {
+        let named = faces.iter().map(|&f| (f as u32, facet as u32));
+        self.candidates.extend(named);
+    }
+
+    /// The faces cover a facet.
+    pub(super) fn constrain(&mut self, faces: &[usize]) {
+        self.constrained.extend(faces.iter().map(|&f| f as u32));
     }
 }
 
@@ -90,44 +130,59 @@ fn cover_all(
     findings: &mut Findings,
 ) -> Cover {
     let faces = case.tables.faces.len();
-    let mut cover = Cover {
-        constrained: vec![false; faces],
-        facet_of: vec![usize::MAX; faces],
-        outside: Vec::new(),
-    };
-    let mut finder = quick.then(|| Finder::new(case, fates, listed));
-    let mut is_listed = Vec::new();
-    for group in groups(case, fates).chunk_by(|f, g| f.0 == g.0) {
-        findings.counts.facet_groups += 1;
-        if let Some(face) = same_face(case, fates, group) {
-            findings.counts.facets += 1;
-            cover.constrained[face] = true;
-            continue;
-        }
-        let group: Vec<usize> = group.iter().map(|&(_, f)| f).collect();
-        if let Some(found) = finder.as_mut().and_then(|finder| finder.cover(&group)) {
-            findings.counts.facets += group.len();
-            findings.counts.facets_rounded += usize::from(found.rounded);
-            for f in found.faces {
-                cover.constrained[f] = true;
-                cover.facet_of[f] = cover.facet_of[f].min(group[0]);
-            }
-            continue;
-        }
-        if is_listed.is_empty() {
-            is_listed = vec![false; faces];
+    let groups = groups(case, fates);
+    let groups: Vec<&[(usize, usize)]> = groups.chunk_by(|f, g| f.0 == g.0).collect();
+    let is_listed = OnceLock::new();
+    let is_listed = || {
+        is_listed.get_or_init(|| {
+            let mut is_listed = vec![false; faces];
             for &f in &listed.surface.faces {
                 is_listed[f as usize] = true;
             }
+            is_listed
+        })
+    };
+    let trial = findings.trial();
+    let parts = threads::in_parts(groups.len(), FEW, |range| {
+        let (mut cover, mut own) = (PartialCover::default(), trial.clone());
+        let mut finder = quick.then(|| Finder::new(case, fates, listed));
+        for group in &groups[range] {
+            own.counts.facet_groups += 1;
+            if let Some(face) = same_face(case, fates, group) {
+                own.counts.facets += 1;
+                cover.constrain(&[face]);
+                continue;
+            }
+            let group: Vec<usize> = group.iter().map(|&(_, f)| f).collect();
+            if let Some(found) = finder.as_mut().and_then(|finder| finder.cover(&group)) {
+                own.counts.facets += group.len();
+                own.counts.facets_rounded += usize::from(found.rounded);
+                cover.constrain(&found.faces);
+                cover.add_candidates(&found.faces, group[0]);
+                continue;
+            }
+            match Group::new(case, fates, group) {
+                Some(group) => group.check(is_listed(), &mut cover, &mut own),
+                None => own.counts.facets_degenerate += 1,
+            }
         }
-        match Group::new(case, fates, group) {
-            Some(group) => group.check(&is_listed, &mut cover, findings),
-            None => findings.counts.facets_degenerate += 1,
-        }
+        (cover, own)
+    });
+    let mut cover = Cover {
+        constrained: vec![false; faces],
+        facet_of: vec![NONE; faces],
+        outside: Vec::new(),
+    };
+    for (part, own) in parts {
+        cover.append(part);
+        findings.append(own);
     }
-    findings.counts.constrained_faces = cover.constrained.iter().filter(|&&c| c).count();
+    findings.counts.constrained_faces = threads::count(faces, 1 << 16, |f| cover.constrained[f]);
     cover
 }
+
+/// Fewer groups are one thread's work.
+const FEW: usize = 1 << 10;
 
 /// Listed faces that cover a group.
 struct Found {
@@ -303,6 +358,9 @@ fn cells(case: &Case, fates: &[Fate], f: usize, axes: [usize; 2]) -> Option<Vec<
         &distinct(edges.into_iter()),
         &facet.holes,
     );
+    if area.upright.is_some() {
+        return None;
+    }
     let mut boundary = area.boundary();
     boundary.retain(|&e| merged.is_empty() || !merged.contains(&sorted2(e)));
     (!boundary.is_empty()).then_some(boundary)

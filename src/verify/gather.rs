@@ -4,7 +4,9 @@
 
 use crate::machine::prefetch;
 use crate::mesh::VertexId;
+use crate::threads;
 use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// A corner of a tetrahedron and the face opposite: 4·tetrahedron + corner, and [`BELOW`] if the orientation of the
 /// tetrahedron has the corner below the face with its vertices in increasing order.
@@ -86,39 +88,84 @@ pub(super) struct Use {
 pub(super) struct Ordered {
     /// Those of vertex v: `order[start[v]..start[v + 1]]`.
     start: Vec<u32>,
-    pub(super) order: Vec<u32>,
+    /// Atomic, for several threads write it.
+    order: Vec<AtomicU32>,
 }
+
+/// How many threads share the counting at most, since each has counters of its own for all vertices; and the least that is
+/// shared.
+const SHARES: usize = 8;
+const SHARED: usize = 1 << 15;
 
 impl Ordered {
     /// In the order of the least, and of the second least vertices.
+    ///
+    /// Several threads do so for parts of the tetrahedra: each counts what it will put at each vertex, and knows from what the
+    /// parts before it have counted where to put it.
     pub(super) fn by_two_least(tets: &[[VertexId; 4]], vertices: usize) -> [Ordered; 2] {
-        let mut start = [vec![0u32; vertices + 1], vec![0u32; vertices + 1]];
-        for tet in tets {
-            let least = two_least(tet);
-            start[0][least[0].index() + 1] += 1;
-            start[1][least[1].index() + 1] += 1;
-        }
-        for start in &mut start {
-            for i in 0..vertices {
-                start[i + 1] += start[i];
+        let shares = match tets.len() < 2 * SHARED {
+            true => 1,
+            false => rayon::current_num_threads().min(SHARES),
+        };
+        let share = tets.len().div_ceil(shares);
+        let parts = || tets.chunks(share.max(1)).enumerate();
+        let mut next: Vec<[Vec<u32>; 2]> = threads::each(parts(), 2, |(_, tets)| {
+            let mut counts = [vec![0u32; vertices], vec![0u32; vertices]];
+            for tet in tets {
+                let least = two_least(tet);
+                counts[0][least[0].index()] += 1;
+                counts[1][least[1].index()] += 1;
             }
-        }
-        let mut next = start.clone();
-        let mut order = [vec![0; tets.len()], vec![0; tets.len()]];
-        for (t, tet) in tets.iter().enumerate() {
-            for (i, v) in two_least(tet).into_iter().enumerate() {
-                let place = &mut next[i][v.index()];
-                order[i][*place as usize] = t as u32;
-                *place += 1;
+            counts
+        });
+        let start = [0, 1].map(|i| {
+            let mut start = Vec::with_capacity(vertices + 1);
+            let mut sum = 0;
+            for v in 0..vertices {
+                start.push(sum);
+                for counts in &mut next {
+                    let place = &mut counts[i][v];
+                    sum += std::mem::replace(place, sum);
+                }
             }
-        }
+            start.push(sum);
+            start
+        });
+        let blank = || (0..tets.len()).map(|_| AtomicU32::new(0)).collect();
+        let order: [Vec<AtomicU32>; 2] = [blank(), blank()];
+        threads::each(parts().zip(&mut next), 2, |((part, tets), next)| {
+            for (t, tet) in (part * share..).zip(tets) {
+                for (i, v) in two_least(tet).into_iter().enumerate() {
+                    let place = &mut next[i][v.index()];
+                    order[i][*place as usize].store(t as u32, Relaxed);
+                    *place += 1;
+                }
+            }
+        });
         let [s0, s1] = start;
         let [o0, o1] = order;
         [(s0, o0), (s1, o1)].map(|(start, order)| Ordered { start, order })
     }
 
+    /// How many tetrahedra have a smaller vertex there.
+    pub(super) fn before(&self, v: usize) -> usize {
+        self.start[v] as usize
+    }
+
     pub(super) fn range(&self, v: usize) -> Range<usize> {
-        self.start[v] as usize..self.start[v + 1] as usize
+        self.before(v)..self.before(v + 1)
+    }
+
+    /// A tetrahedron by its place in the order.
+    #[inline(always)]
+    pub(super) fn tet(&self, place: usize) -> u32 {
+        self.order[place].load(Relaxed)
+    }
+
+    /// The same, if there are so many.
+    #[inline(always)]
+    pub(super) fn get(&self, place: usize) -> Option<u32> {
+        self.order.get(place).map(|t| t.load(Relaxed))
     }
 }
 

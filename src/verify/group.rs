@@ -3,7 +3,7 @@
 
 use super::cover::{self, Need};
 use super::delaunay::is_locally_delaunay;
-use super::facets::{Cover, OutsidePart};
+use super::facets::{OutsidePart, PartialCover};
 use super::planar::{Area, distinct};
 use super::segments::{Fate, axes_of};
 use super::slabs::Slabs;
@@ -109,13 +109,22 @@ impl<'a> Group<'a> {
     }
 
     /// Covers it.
-    pub(super) fn check(mut self, listed: &[bool], cover: &mut Cover, findings: &mut Findings) {
+    pub(super) fn check(
+        mut self,
+        listed: &[bool],
+        cover: &mut PartialCover,
+        findings: &mut Findings,
+    ) {
+        for (&facet, area) in self.facets.iter().zip(&self.areas) {
+            if let Some(edge) = area.upright {
+                let edge = edge.map(|v| self.case.place(v));
+                findings.report(Violation::FacetUpright { facet, edge });
+                return;
+            }
+        }
         let mut filled = FxHashSet::default();
         let candidates = self.candidates(&mut filled);
-        for &f in &candidates {
-            let of = &mut cover.facet_of[f];
-            *of = (*of).min(self.facets[0]);
-        }
+        cover.add_candidates(&candidates, self.facets[0]);
         self.exempt(&filled, cover, findings);
         let expected = self.expected();
         let given = candidates.iter().copied().filter(|&f| listed[f]);
@@ -155,9 +164,7 @@ impl<'a> Group<'a> {
         if let Some(choice) = covering {
             findings.counts.facets += self.facets.len();
             findings.counts.facets_rounded += usize::from(self.is_rounded(&choice));
-            for face in choice {
-                cover.constrained[face] = true;
-            }
+            cover.constrain(&choice);
             return;
         }
         let facets = self.facets.clone();
@@ -267,7 +274,7 @@ impl<'a> Group<'a> {
     fn exempt(
         &mut self,
         filled: &FxHashSet<(usize, usize)>,
-        cover: &mut Cover,
+        cover: &mut PartialCover,
         findings: &mut Findings,
     ) {
         let tables = &self.case.tables;

@@ -15,12 +15,20 @@ use super::winding::Boundary;
 use super::{Case, Findings, Violation, locate};
 use crate::mesh::VertexId;
 
-/// `outer`: the shells of positive volume.
+/// `outer`: the shells of positive volume, without those in voids of others.
 pub(super) fn check(case: &Case, outer: &[&Shell], boundary: &Boundary, findings: &mut Findings) {
     let centre = case.tables.tets[0];
     if boundary.winding(&centre) != Some(1) {
-        for other in locate::around_first(case) {
+        let others = locate::around_first(case);
+        for &other in &others {
             findings.report(Violation::Overlap { tets: [0, other] });
+        }
+        let mut faces = outer.iter().flat_map(|shell| &shell.faces);
+        if let Some(&f) = faces.next().filter(|_| others.is_empty()) {
+            findings.report(Violation::HullNotConvex {
+                face: case.tables.faces[f].key.map(|v| case.place(v)),
+                apex: case.place(centre[0]),
+            });
         }
     }
     let faces = outer.iter().map(|shell| shell.faces.len()).sum::<usize>();

@@ -7,7 +7,11 @@ use super::tables::sorted2;
 use crate::mesh::{ExportedMesh, VertexId};
 use crate::number::{Dyadic, Vec3};
 use crate::plc::Plc;
+use crate::threads;
 use rustc_hash::FxHashMap;
+
+/// Fewer elements are one thread's work.
+const FEW: usize = 1 << 12;
 
 /// An edge of facets or a segment given for itself; several coinciding ones are one.
 pub(super) struct InputEdge {
@@ -77,7 +81,18 @@ impl Input {
             }
         }
         let mut site_of = Vec::with_capacity(plc.vertices.len());
-        for &p in &plc.vertices {
+        // Most input vertices are the mesh vertices with their numbers, which are the first ones there if none coincide.
+        let is_same = |i: usize, p: [f64; 3]| {
+            coincident.is_empty()
+                && exact.is_empty()
+                && used.get(i).is_some_and(|&used| used)
+                && mesh.vertices[i] == p
+        };
+        for (i, &p) in plc.vertices.iter().enumerate() {
+            if is_same(i, p) {
+                site_of.push(VertexId::new(i));
+                continue;
+            }
             let new = VertexId::new(coordinates.len());
             let site = places.first_at(&coordinates, p, new);
             if site == new {
@@ -106,39 +121,30 @@ impl Input {
             is_site[v.index()] = true;
         }
         let (edges, edges_of) = edges(plc, &site_of);
-        let facets = plc
-            .facets
-            .iter()
-            .zip(edges_of)
-            .zip(facet_holes)
-            .map(|((facet, edges), holes)| {
-                let mut vertices: Vec<VertexId> = facet
-                    .polygons
-                    .iter()
-                    .flatten()
-                    .map(|v| site_of[v.index()])
-                    .collect();
-                vertices.sort_unstable();
-                vertices.dedup();
-                let frame = frame(&points, &vertices);
-                let flat = frame.is_some_and(|[a, b, c]| {
-                    vertices.iter().all(|&v| points.is_on_plane([a, b, c], v))
-                });
-                let bulge = frame.filter(|_| !flat).map_or(0.0, |f| {
-                    vertices
-                        .iter()
-                        .fold(0.0f64, |m, &v| m.max(points.distance_to_plane(f, v)))
-                });
-                InputFacet {
-                    edges,
-                    vertices,
-                    holes,
-                    frame,
-                    flat,
-                    bulge,
-                }
-            })
-            .collect();
+        let parts = plc.facets.iter().zip(edges_of).zip(facet_holes);
+        let facets = threads::each(parts, FEW, |((facet, edges), holes)| {
+            let corners = facet.polygons.iter().flatten();
+            let mut vertices: Vec<VertexId> = corners.map(|v| site_of[v.index()]).collect();
+            vertices.sort_unstable();
+            vertices.dedup();
+            let frame = frame(&points, &vertices);
+            let flat = frame.is_some_and(|[a, b, c]| {
+                let mut vertices = vertices.iter();
+                vertices.all(|&v| points.is_on_plane([a, b, c], v))
+            });
+            let bulge = frame.filter(|_| !flat).map_or(0.0, |f| {
+                let distances = vertices.iter().map(|&v| points.distance_to_plane(f, v));
+                distances.fold(0.0, f64::max)
+            });
+            InputFacet {
+                edges,
+                vertices,
+                holes,
+                frame,
+                flat,
+                bulge,
+            }
+        });
         (
             Input {
                 site_of,
@@ -177,7 +183,7 @@ fn edges(plc: &Plc, site_of: &[VertexId]) -> (Vec<InputEdge>, Vec<Vec<usize>>) {
     let segments = plc.segments.iter();
     uses.extend(segments.map(|s| (key(s.ends[0], s.ends[1]), u32::MAX, true)));
     uses.retain(|(ends, ..)| ends[0] != ends[1]);
-    uses.sort_unstable();
+    threads::sort(&mut uses, FEW);
     let mut of_facet = vec![Vec::new(); plc.facets.len()];
     let mut edges: Vec<InputEdge> = Vec::new();
     for uses in uses.chunk_by(|x, y| x.0 == y.0) {

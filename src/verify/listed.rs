@@ -6,6 +6,10 @@ use super::surface::Surface;
 use super::tables::sorted2;
 use super::{Case, Findings, Violation};
 use crate::mesh::{ExportedMesh, VertexId};
+use crate::threads;
+
+/// Fewer elements are one thread's work.
+const FEW: usize = 1 << 12;
 
 /// What the mesh lists.
 pub(super) struct Listed {
@@ -50,24 +54,32 @@ pub(super) fn vertices(mesh: &ExportedMesh, vertices: usize) -> Vec<bool> {
 }
 
 pub(super) fn check(case: &Case, findings: &mut Findings) -> Listed {
-    let mut faces = Vec::with_capacity(case.mesh.faces.len());
-    for (index, face) in case.mesh.faces.iter().enumerate() {
-        match case.tables.find_face(face.vertices) {
-            Some(f) => faces.push(f as u32),
-            None => findings.report(Violation::ListedNotInMesh {
+    let places = threads::map(case.mesh.faces.len(), FEW, |i| {
+        let found = case.tables.find_face(case.mesh.faces[i].vertices);
+        found.map_or(u32::MAX, |f| f as u32)
+    });
+    let mut faces = Vec::with_capacity(places.len());
+    for (index, place) in places.into_iter().enumerate() {
+        match place {
+            u32::MAX => findings.report(Violation::ListedNotInMesh {
                 element: "face",
                 index,
             }),
+            f => faces.push(f),
         }
     }
     faces.sort_unstable();
     faces.dedup();
     let surface = Surface::new(case, faces);
+    let is_edge = threads::map(case.mesh.edges.len(), FEW, |i| {
+        let edge = sorted2(case.mesh.edges[i].vertices);
+        edge[0] != edge[1] && (surface.has_edge(edge) || case.tables.has_edge(edge))
+    });
     let mut edges = Vec::with_capacity(case.mesh.edges.len());
     let mut start = vec![0u32; case.mesh.vertices.len() + 1];
     for (index, edge) in case.mesh.edges.iter().enumerate() {
         let edge = sorted2(edge.vertices);
-        if edge[0] == edge[1] || !(surface.has_edge(edge) || case.tables.has_edge(edge)) {
+        if !is_edge[index] {
             findings.report(Violation::ListedNotInMesh {
                 element: "edge",
                 index,

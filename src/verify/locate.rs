@@ -7,9 +7,14 @@ use super::Case;
 use super::points::Points;
 use super::tables::{INWARD, Tables};
 use crate::mesh::VertexId;
+use crate::threads;
 use rustc_hash::FxHashMap;
+use std::ops::Range;
 
 const LEAF: usize = 6;
+
+/// Fewer tetrahedra are one thread's work.
+const FEW: usize = 1 << 14;
 
 /// A box by its least and greatest coordinates.
 type Bounds = [[f64; 3]; 2];
@@ -211,9 +216,25 @@ impl Search {
     /// (query, tetrahedron) for all tetrahedra that contain the point of a query and are not its own; the tetrahedra in
     /// increasing order.
     fn pairs(&self, points: &Points, tables: &Tables, queries: &[Query]) -> Vec<(u32, u32)> {
-        let mut pairs = Vec::new();
+        let parts = threads::in_parts(tables.tets.len(), FEW, |range| {
+            let mut pairs = Vec::new();
+            self.pairs_of(range, points, tables, queries, &mut pairs);
+            pairs
+        });
+        parts.concat()
+    }
+
+    /// The same for some of the tetrahedra.
+    fn pairs_of(
+        &self,
+        range: Range<usize>,
+        points: &Points,
+        tables: &Tables,
+        queries: &[Query],
+        pairs: &mut Vec<(u32, u32)>,
+    ) {
         let mut stack = Vec::new();
-        for (t, &tet) in tables.tets.iter().enumerate() {
+        for (t, &tet) in range.clone().zip(&tables.tets[range]) {
             let wobble = points.wobble(&tet);
             let mut low = points.at(tet[0]);
             let mut high = low;
@@ -253,6 +274,5 @@ impl Search {
                 }
             }
         }
-        pairs
     }
 }

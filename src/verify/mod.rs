@@ -28,6 +28,7 @@ mod accumulator;
 mod adjacency;
 mod cover;
 mod delaunay;
+mod directions;
 mod distance;
 mod domain;
 mod facets;
@@ -54,7 +55,9 @@ mod slabs;
 mod structure;
 mod sums;
 mod surface;
+mod sweep;
 mod tables;
+mod tally;
 mod verdict;
 mod vertices;
 mod violation;
@@ -189,7 +192,8 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         tables: &tables,
         input: &input,
         locator: Locator::new(&points, &tables, singles),
-        tolerance: options.tolerance * ulp(points.largest()),
+        // No number is no tolerance.
+        tolerance: options.tolerance.max(0.0) * ulp(points.largest()),
         rounding: VerifyOptions::default().tolerance * ulp(points.largest()),
     };
     let listed = listed::check(&case, &mut findings);

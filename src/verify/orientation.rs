@@ -5,7 +5,11 @@ use super::points::Points;
 use super::{Findings, Place, Violation};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use crate::threads;
 use std::borrow::Cow;
+
+/// Fewer tetrahedra are one thread's work.
+const FEW: usize = 1 << 14;
 
 /// How far ahead of their use points are asked for.
 const AHEAD: usize = 6;
@@ -17,24 +21,30 @@ pub(super) fn check<'a>(
     findings: &mut Findings,
 ) -> Cow<'a, [[VertexId; 4]]> {
     let mut tets = Cow::Borrowed(tets);
-    // Negative, zero, positive.
-    let mut signs = [0; 3];
-    for (t, &tet) in tets.iter().enumerate() {
-        if let Some(ahead) = tets.get(t + AHEAD) {
-            ahead[1..].iter().for_each(|&v| points.prefetch(v));
+    let parts = threads::in_parts(tets.len(), FEW, |range| {
+        // Negative, zero, positive; and those that rounding spoils.
+        let mut counts = [0; 4];
+        for t in range {
+            if let Some(ahead) = tets.get(t + AHEAD) {
+                ahead[1..].iter().for_each(|&v| points.prefetch(v));
+            }
+            let tet = tets[t];
+            let sign = points.orient(tet);
+            counts[match sign {
+                Sign::Negative => 0,
+                Sign::Zero => 1,
+                Sign::Positive => 2,
+            }] += 1;
+            if !points.are_doubles() {
+                let rounded = points.orient_rounded(tet);
+                counts[3] += usize::from(rounded.is_some_and(|s| s != sign));
+            }
         }
-        let sign = points.orient(tet);
-        signs[match sign {
-            Sign::Negative => 0,
-            Sign::Zero => 1,
-            Sign::Positive => 2,
-        }] += 1;
-        if !points.are_doubles() {
-            let rounded = points.orient_rounded(tet);
-            findings.counts.spoilt_by_rounding += usize::from(rounded.is_some_and(|s| s != sign));
-        }
-    }
-    let [negative, flat, positive] = signs;
+        counts
+    });
+    let sum = |i: usize| parts.iter().map(|counts| counts[i]).sum::<usize>();
+    let [negative, flat, positive, spoilt] = [0, 1, 2, 3].map(sum);
+    findings.counts.spoilt_by_rounding = spoilt;
     if positive == 0 && negative > 0 {
         findings.counts.turned = true;
         tets.to_mut().iter_mut().for_each(|t| t.swap(2, 3));

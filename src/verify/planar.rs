@@ -10,6 +10,7 @@
 //! O(m log m) to build for m edges. A point is looked for in the slab of the edges at its height ([`Slabs`]): O(k) for k
 //! edges there; of the two directions, the one with fewer edges in a slab is taken.
 
+use super::directions::next_around_faces;
 use super::points::Points;
 use super::probe::Probe;
 use super::slabs::{self, Slabs};
@@ -17,7 +18,6 @@ use super::sums::Areas;
 use super::tables::sorted2;
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Sign};
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// From how many edges on they are sorted by slabs.
@@ -49,6 +49,9 @@ pub(super) struct Area<'a> {
     cell_of: Vec<usize>,
     /// Whether a cell belongs to the area.
     kept: Vec<bool>,
+    /// An edge because of which the cells are not known: a point in the plane, with two others at one of its ends. Only
+    /// facets that are not flat can have one.
+    pub(super) upright: Option<[VertexId; 2]>,
 }
 
 impl<'a> Area<'a> {
@@ -61,7 +64,7 @@ impl<'a> Area<'a> {
     ) -> Area<'a> {
         let half_edges: Vec<[VertexId; 2]> =
             edges.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
-        let next = next_around_faces(points, axes, &half_edges);
+        let (next, upright) = next_around_faces(points, axes, &half_edges);
         let mut cycle_of = vec![usize::MAX; half_edges.len()];
         let mut cycles = Vec::new();
         for start in 0..half_edges.len() {
@@ -90,6 +93,7 @@ impl<'a> Area<'a> {
             slabs: None,
             cell_of: Vec::new(),
             kept: Vec::new(),
+            upright,
         };
         area.sort_edges();
         area.name_cells();
@@ -338,49 +342,6 @@ impl<'a> Area<'a> {
             .filter(|&c| self.points.orient2d(self.axes, c).is_positive())
             .min_by(|c, d| order(c[1], d[1]))
     }
-}
-
-/// For each half-edge the next one around the face to its left: at its head, the one just clockwise of its twin.
-fn next_around_faces(
-    points: &Points,
-    axes: [usize; 2],
-    half_edges: &[[VertexId; 2]],
-) -> Vec<usize> {
-    let mut out: Vec<usize> = (0..half_edges.len()).collect();
-    out.sort_by(|&g, &h| {
-        let ([a, p], [b, q]) = (half_edges[g], half_edges[h]);
-        a.cmp(&b)
-            .then_with(|| counterclockwise(points, axes, a, p, q))
-    });
-    let mut next = vec![0; half_edges.len()];
-    for around in out.chunk_by(|&g, &h| half_edges[g][0] == half_edges[h][0]) {
-        for (i, &h) in around.iter().enumerate() {
-            // h leaves the vertex; its twin arrives.
-            next[h ^ 1] = around[(i + around.len() - 1) % around.len()];
-        }
-    }
-    next
-}
-
-/// The order of the directions from v to p and q, counterclockwise from the first axis.
-fn counterclockwise(
-    points: &Points,
-    axes: [usize; 2],
-    v: VertexId,
-    p: VertexId,
-    q: VertexId,
-) -> Ordering {
-    let is_lower = |w: VertexId| {
-        let [x, y] = axes.map(|i| points.order(i, w, v));
-        y.then(x).is_lt()
-    };
-    is_lower(p)
-        .cmp(&is_lower(q))
-        .then_with(|| match points.orient2d(axes, [v, p, q]) {
-            Sign::Positive => Ordering::Less,
-            Sign::Negative => Ordering::Greater,
-            Sign::Zero => p.cmp(&q),
-        })
 }
 
 /// The edges without repetition.

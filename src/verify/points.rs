@@ -7,11 +7,13 @@
 use super::filter::{self, Exactness, Permanent};
 use super::fixed::{self, Scaled};
 use super::formulas::{Insphere, Orient, Side};
+use super::tally::Tally;
 use super::words::{self, Cell};
 use crate::machine::prefetch;
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::formula;
+use crate::threads;
 use arrayvec::ArrayVec;
 use rustc_hash::FxHashMap;
 
@@ -29,8 +31,11 @@ pub(super) struct Points {
     /// The greatest k for each point such that its coordinates are multiples of 2^k; [`ELSEWHERE`] if they are no doubles.
     grain: Vec<i16>,
     exactness: Exactness,
-    exact_signs: std::cell::Cell<usize>,
+    exact_signs: Tally,
 }
+
+/// Fewer points are one thread's work.
+const FEW: usize = 1 << 15;
 
 /// Below all exponents.
 const ELSEWHERE: i16 = i16::MIN;
@@ -77,18 +82,20 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 impl Points {
     /// Finite coordinates.
     pub(super) fn new(coordinates: Vec<[f64; 3]>) -> Points {
-        let largest = coordinates
-            .iter()
-            .flatten()
-            .fold(0.0f64, |m, x| m.max(x.abs()));
-        let grain: Vec<i16> = coordinates
-            .iter()
-            .map(|p| grain(p[0]).min(grain(p[1])).min(grain(p[2])))
-            .collect();
+        let n = coordinates.len();
+        let parts = threads::in_parts(n, FEW, |range| {
+            let numbers = coordinates[range].iter().flatten();
+            numbers.fold(0.0f64, |m, x| m.max(x.abs()))
+        });
+        let largest = parts.into_iter().fold(0.0, f64::max);
+        let grain: Vec<i16> = threads::map(n, FEW, |v| {
+            let [x, y, z] = coordinates[v].map(grain);
+            x.min(y).min(z)
+        });
         Points {
             exactness: Exactness::new(grain.iter().copied().min().unwrap_or(0)),
             grain,
-            exact_signs: std::cell::Cell::new(0),
+            exact_signs: Tally::default(),
             coordinates,
             exact: FxHashMap::default(),
             wobble: Vec::new(),
@@ -202,7 +209,7 @@ impl Points {
 
     /// How many signs were decided by integers so far.
     pub(super) fn exact_signs(&self) -> usize {
-        self.exact_signs.get()
+        self.exact_signs.total()
     }
 
     /// The points in the largest unit that makes them integers, if those are small enough.
@@ -229,7 +236,7 @@ impl Points {
 
     /// A sign that is decided by integers.
     pub(super) fn counted(&self, sign: Sign) -> Sign {
-        self.exact_signs.set(self.exact_signs.get() + 1);
+        self.exact_signs.add();
         sign
     }
 

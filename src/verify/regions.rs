@@ -3,24 +3,29 @@
 //! Only where mesh and PLC have any: without region points, programs number the parts as they like.
 
 use super::{Case, Findings, Violation};
+use crate::threads;
+
+/// Fewer faces are one thread's work.
+const FEW: usize = 1 << 16;
 
 pub(super) fn check(case: &Case, constrained: &[bool], findings: &mut Findings) {
     let attributes = &case.mesh.regions;
     if attributes.is_empty() || case.plc.regions.is_empty() {
         return;
     }
-    for (f, face) in case.tables.faces.iter().enumerate() {
-        let Some(sides) = face.both().filter(|_| !constrained[f]) else {
-            continue;
+    let faces = &case.tables.faces;
+    let leaks = threads::collect(faces.len(), FEW, |f, leaks| {
+        let Some(sides) = faces[f].both().filter(|_| !constrained[f]) else {
+            return;
         };
         let tets = sides.map(|side| side.tet());
         let found = tets.map(|t| attributes[t]);
         if found[0] != found[1] {
-            findings.report(Violation::RegionLeaks {
-                tets,
-                attributes: found,
-            });
+            leaks.push((tets, found));
         }
+    });
+    for (tets, attributes) in leaks {
+        findings.report(Violation::RegionLeaks { tets, attributes });
     }
     for (i, (region, &point)) in case.plc.regions.iter().zip(&case.input.regions).enumerate() {
         // A point on a face between two regions names either.

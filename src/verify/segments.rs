@@ -14,6 +14,7 @@ use super::points::{cross, dot, minus};
 use super::tables::sorted2;
 use super::{Case, Findings, Violation};
 use crate::mesh::VertexId;
+use crate::threads;
 use std::cmp::Ordering;
 
 /// What became of a segment.
@@ -41,56 +42,70 @@ impl Fate {
     }
 }
 
+/// Fewer edges are one thread's work.
+const FEW: usize = 1 << 11;
+
 /// The fate of each of the input's edges.
 pub(super) fn check(case: &Case, listed: &Listed, findings: &mut Findings) -> Vec<Fate> {
-    let input = &case.input;
-    let mut fates = Vec::with_capacity(input.edges.len());
-    for (e, edge) in input.edges.iter().enumerate() {
-        // Rounded Steiner points permit several chains: that of listed edges, if there is one, is meant.
-        let chain = chain(case, edge.ends, &|v| listed.neighbours(v).to_vec(), &|e| {
-            listed.has(e)
-        })
-        .or_else(|| {
-            let has_edge = |e| listed.surface.has_edge(sorted2(e)) || case.tables.has_edge(e);
-            chain(case, edge.ends, &|v| case.tables.neighbours(v), &has_edge)
-        });
-        let unlisted = case.options.merge_angle.is_some()
-            && chain
-                .as_ref()
-                .is_some_and(|c| is_unlisted(listed, c, edge.ends));
-        let fate = if let Some(chain) = chain.filter(|_| !unlisted || !is_mergeable(case, e)) {
-            chain
-        } else if is_mergeable(case, e) {
-            Fate::Merged
-        } else if leaves(case, edge.ends) {
-            Fate::Outside
-        } else {
-            Fate::Missing
-        };
-        let counts = &mut findings.counts;
-        match &fate {
-            Fate::Edge => {
-                counts.segments += 1;
-                counts.subsegments += 1;
-            }
-            Fate::Chain(chain) => {
-                counts.segments += 1;
-                counts.subsegments += chain.len() - 1;
-                for &v in &chain[1..chain.len() - 1] {
-                    if case.points.collinear([edge.ends[0], edge.ends[1], v]) {
-                        counts.segment_vertices_exact += 1;
-                    } else {
-                        counts.segment_vertices_rounded += 1;
-                    }
-                }
-            }
-            Fate::Merged => counts.segments_merged += 1,
-            Fate::Outside => counts.segments_outside += 1,
-            Fate::Missing => report(case, e, findings),
-        }
-        fates.push(fate);
+    let trial = findings.trial();
+    let parts = threads::in_parts(case.input.edges.len(), FEW, |range| {
+        let mut own = trial.clone();
+        let fates: Vec<Fate> = range.map(|e| fate(case, e, listed, &mut own)).collect();
+        (fates, own)
+    });
+    let mut fates = Vec::with_capacity(case.input.edges.len());
+    for (part, own) in parts {
+        fates.extend(part);
+        findings.append(own);
     }
     fates
+}
+
+fn fate(case: &Case, e: usize, listed: &Listed, findings: &mut Findings) -> Fate {
+    let edge = &case.input.edges[e];
+    // Rounded Steiner points permit several chains: that of listed edges, if there is one, is meant.
+    let found = chain(case, edge.ends, &|v| listed.neighbours(v).to_vec(), &|e| {
+        listed.has(e)
+    })
+    .or_else(|| {
+        let has_edge = |e| listed.surface.has_edge(sorted2(e)) || case.tables.has_edge(e);
+        chain(case, edge.ends, &|v| case.tables.neighbours(v), &has_edge)
+    });
+    let unlisted = case.options.merge_angle.is_some()
+        && found
+            .as_ref()
+            .is_some_and(|c| is_unlisted(listed, c, edge.ends));
+    let fate = if let Some(chain) = found.filter(|_| !unlisted || !is_mergeable(case, e)) {
+        chain
+    } else if is_mergeable(case, e) {
+        Fate::Merged
+    } else if leaves(case, edge.ends) {
+        Fate::Outside
+    } else {
+        Fate::Missing
+    };
+    let counts = &mut findings.counts;
+    match &fate {
+        Fate::Edge => {
+            counts.segments += 1;
+            counts.subsegments += 1;
+        }
+        Fate::Chain(chain) => {
+            counts.segments += 1;
+            counts.subsegments += chain.len() - 1;
+            for &v in &chain[1..chain.len() - 1] {
+                if case.points.collinear([edge.ends[0], edge.ends[1], v]) {
+                    counts.segment_vertices_exact += 1;
+                } else {
+                    counts.segment_vertices_rounded += 1;
+                }
+            }
+        }
+        Fate::Merged => counts.segments_merged += 1,
+        Fate::Outside => counts.segments_outside += 1,
+        Fate::Missing => report(case, e, findings),
+    }
+    fate
 }
 
 /// Whether the mesh lists edges, but not those of the chain.
@@ -201,7 +216,8 @@ fn is_mergeable(case: &Case, e: usize) -> bool {
             .iter()
             .map(|&e| case.input.edges[e].ends)
             .collect();
-        Area::new(case.points, axes, &edges, &facet.holes).sides(edge.ends)
+        let area = Area::new(case.points, axes, &edges, &facet.holes);
+        area.sides(edge.ends).filter(|_| area.upright.is_none())
     });
     matches!(
         sides,

@@ -1,15 +1,14 @@
 //! The tetrahedra with their faces and edges looked up by vertices: sorted arrays, nothing that the mesh itself claims.
 
 use super::MOST_TETS;
-use super::delaunay::{Spheres, side_of_sphere};
-use super::gather::{Corner, FEW, Face, Gatherer, Ordered, Use, with_corners};
+use super::delaunay::Spheres;
+use super::gather::{Corner, FEW, Face};
 use super::points::Points;
-use crate::machine::prefetch;
+use super::sweep::sweep;
 use crate::mesh::VertexId;
-use crate::number::Sign;
 use std::borrow::Cow;
-use std::cell::OnceCell;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// The face opposite each corner, ordered such that the corner is on its positive side (the normal points inwards).
 pub(super) const INWARD: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
@@ -37,11 +36,8 @@ pub(super) struct Tables<'a> {
     /// Whether a vertex is in a tetrahedron.
     used: Vec<bool>,
     /// The tetrahedra at each vertex; many meshes are verified without.
-    stars: OnceCell<Stars>,
+    stars: OnceLock<Stars>,
 }
-
-/// How far ahead of its use memory is asked for.
-const AHEAD: usize = 16;
 
 /// `star[start[v]..start[v + 1]]`.
 struct Stars {
@@ -71,96 +67,21 @@ impl<'a> Tables<'a> {
         asked: Option<Vec<bool>>,
     ) -> Tables<'a> {
         assert!(tets.len() <= MOST_TETS, "structure has been checked");
-        // A face is looked for at its smallest vertex: that is the smallest of a tetrahedron for three of its faces, and the
-        // second smallest for one.
-        let [first, second] = Ordered::by_two_least(&tets, used.len());
-        let mut tables = Tables {
-            faces: match asked {
-                None => Vec::with_capacity(2 * tets.len() + tets.len() / 4),
-                Some(_) => Vec::new(),
-            },
-            total: 0,
-            spheres: Spheres::default(),
-            is_positive: true,
-            boundary: Vec::new(),
-            crowded: Vec::new(),
-            same_side: Vec::new(),
-            face_start: Vec::with_capacity(used.len() + 1),
-            stars: OnceCell::new(),
+        let found = sweep(points, &tets, used.len(), asked.as_deref());
+        let mut face_start = found.starts;
+        face_start.push(found.faces.len() as u32);
+        Tables {
             tets,
+            faces: found.faces,
+            total: found.total,
+            spheres: found.spheres,
+            is_positive: found.is_positive,
+            boundary: found.boundary,
+            crowded: found.crowded,
+            same_side: found.same_side,
+            face_start,
             used,
-        };
-        let mut gatherer = Gatherer::new(tables.used.len());
-        let mut uses = Vec::new();
-        for v in 0..tables.used.len() {
-            tables.face_start.push(tables.faces.len() as u32);
-            uses.clear();
-            let tets = &tables.tets;
-            for i in first.range(v) {
-                let t = first.order[i];
-                let ([a, b, c, d], odd) = with_corners(&tets[t as usize]);
-                for v in [b, c, d] {
-                    points.prefetch(v.0);
-                    gatherer.prefetch(v.0);
-                }
-                uses.push(Use::new(t, [b.0, c.0], d, odd));
-                uses.push(Use::new(t, [b.0, d.0], c, !odd));
-                uses.push(Use::new(t, [c.0, d.0], b, odd));
-                debug_assert_eq!(a.0.index(), v);
-            }
-            for i in second.range(v) {
-                if let Some(&ahead) = second.order.get(i + AHEAD) {
-                    prefetch(tets, ahead as usize);
-                }
-                let t = second.order[i];
-                let ([a, _, c, d], odd) = with_corners(&tets[t as usize]);
-                points.prefetch(a.0);
-                gatherer.prefetch(c.0);
-                uses.push(Use::new(t, [c.0, d.0], a, !odd));
-            }
-            for &t in &first.order[first.range(v)] {
-                tables.is_positive &= points.orient(tets[t as usize]).is_positive();
-            }
-            gatherer.gather(VertexId(v as u32), &mut uses);
-            tables.take(points, &gatherer, asked.as_deref());
-        }
-        tables.face_start.push(tables.faces.len() as u32);
-        tables
-    }
-
-    /// Judges the faces of one vertex, and keeps them if they may be asked for.
-    fn take(&mut self, points: &Points, gathered: &Gatherer, asked: Option<&[bool]>) {
-        self.total += gathered.faces.len();
-        for (i, face) in gathered.faces.iter().enumerate() {
-            let f = self.faces.len();
-            let mut keep = asked.is_none_or(|asked| face.key.iter().all(|v| asked[v.index()]));
-            match face.both() {
-                None => {
-                    self.boundary.push(f as u32);
-                    keep = true;
-                }
-                Some([a, b]) if a.is_below() == b.is_below() => {
-                    self.same_side.push(f);
-                    keep = true;
-                }
-                Some(_) => {}
-            }
-            if gathered.crowded.contains(&i) {
-                self.crowded.push(f);
-                keep = true;
-            }
-            match side_of_sphere(points, face) {
-                Sign::Negative => {}
-                Sign::Zero if keep => self.spheres.cospherical.push(f),
-                Sign::Zero => self.spheres.cospherical_elsewhere += 1,
-                Sign::Positive => {
-                    self.spheres.violated.push(f);
-                    keep = true;
-                }
-            }
-            if keep {
-                self.faces.push(*face);
-            }
+            stars: OnceLock::new(),
         }
     }
 

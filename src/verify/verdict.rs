@@ -89,6 +89,23 @@ pub struct Counts {
     pub exact_signs: usize,
 }
 
+impl Counts {
+    /// Adds what was counted elsewhere in the same check.
+    fn add(&mut self, more: Counts) {
+        self.segments += more.segments;
+        self.subsegments += more.subsegments;
+        self.segments_merged += more.segments_merged;
+        self.segments_outside += more.segments_outside;
+        self.segment_vertices_exact += more.segment_vertices_exact;
+        self.segment_vertices_rounded += more.segment_vertices_rounded;
+        self.facets += more.facets;
+        self.facet_groups += more.facet_groups;
+        self.facets_rounded += more.facets_rounded;
+        self.facets_degenerate += more.facets_degenerate;
+        self.facet_parts_outside += more.facet_parts_outside;
+    }
+}
+
 /// The outcome of [`super::verify`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
@@ -217,6 +234,22 @@ impl Findings {
         *total += 1;
         if *total <= self.cap {
             self.violations.push(violation);
+        }
+    }
+
+    /// Appends what another thread found after this, with the same cap, about segments and facets.
+    pub(super) fn append(&mut self, next: Findings) {
+        self.counts.add(next.counts);
+        let mut totals = self.totals.clone();
+        for violation in next.violations {
+            let listed = totals.entry(violation.kind()).or_insert(0);
+            *listed += 1;
+            if *listed <= self.cap {
+                self.violations.push(violation);
+            }
+        }
+        for (kind, total) in next.totals {
+            *self.totals.entry(kind).or_insert(0) += total;
         }
     }
 

@@ -144,6 +144,15 @@ pub enum Violation {
         /// How many should have it.
         expected: usize,
     },
+    /// A facet is so far from flat that which parts of its plane it covers cannot be told: in the projection along a coordinate
+    /// axis that shows it best, an edge is a point, and others meet at an end of that edge.
+    #[error("facet {facet} is not flat: its edge {}–{} is upright, and what is inside cannot be told", .edge[0], .edge[1])]
+    FacetUpright {
+        /// The facet.
+        facet: usize,
+        /// The edge.
+        edge: [Place; 2],
+    },
     /// The mesh faces in a facet have its boundary but overlap or fold.
     #[error("the mesh faces in facets {facets:?} cover {covered} of the projected area {area}")]
     FacetArea {
@@ -290,6 +299,7 @@ impl Violation {
             Violation::ListedNotInMesh { .. } => "listed but not in mesh",
             Violation::MissingSegment { .. } => "missing segment",
             Violation::FacetNotCovered { .. } => "facet not covered",
+            Violation::FacetUpright { .. } => "facet upright",
             Violation::FacetArea { .. } => "facet area",
             Violation::NotLocallyDelaunay { .. } => "not locally Delaunay",
             Violation::BoundaryWithoutVolume { .. } => "boundary without volume",
