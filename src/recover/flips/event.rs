@@ -89,6 +89,7 @@ impl Default for Facets {
 impl Facets {
     #[inline(always)]
     pub(super) fn push_if(&mut self, c: Corner, is_chosen: bool) {
+        debug_assert!(self.len < 16, "four tetrahedra have 16 facets");
         self.corners[self.len & 15] = c;
         self.len += usize::from(is_chosen);
     }

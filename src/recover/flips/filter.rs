@@ -338,6 +338,13 @@ impl<'a, P: PointStore> Filter<'a, P> {
         }
     }
 
+    /// What −N/D is like, as far as the size of a circuit and the largest rate tell.
+    #[inline]
+    pub(super) fn typical_time(&self, rising: &Rising) -> f64 {
+        let [x, y, z] = rising.largest;
+        (x * x + y * y + z * z) / (2.0 * self.largest_magnitude)
+    }
+
     /// N and D and all five coefficients of a circuit in quanta, if all are certain.
     #[inline(always)]
     pub(super) fn integers(&self, rising: &Rising, n: &Bounded) -> Option<([i64; 2], [i64; 5])> {

@@ -230,7 +230,13 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
             None => FilteredTime::default(),
         };
         let (middle, width) = enclosure(&n, &rising.d);
-        let scale = *self.scale.get_or_insert_with(|| inverse_power(middle));
+        let filter = &self.filter;
+        let scale = *self.scale.get_or_insert_with(|| {
+            // The first flip may be due at time 0.
+            let typical = [middle, filter.typical_time(&rising)];
+            let typical = typical.into_iter().find(|time| time.is_normal());
+            typical.map_or(1.0, inverse_power)
+        });
         let key = Enclosure::new(middle * scale, ((width * scale) as f32).next_up());
         Some(Timing { key, time, signs })
     }
@@ -289,8 +295,13 @@ impl<P: PointStore> FlipTimes for FilteredTimes<'_, P> {
 /// The middle and the half width of an interval that contains −N/D, for D certainly positive.
 #[inline]
 fn enclosure(n: &Bounded, d: &Bounded) -> (f64, f64) {
-    // e is at least T: the product below may underflow.
-    let (e, g) = (n.error.max(f64::MIN_POSITIVE), d.error);
+    // e is at least T, since the product below may underflow; and infinite where the bound overflowed to NaN, which the larger of
+    // the two would forget.
+    let e = match n.error {
+        e if e.is_nan() => f64::INFINITY,
+        e => e.max(f64::MIN_POSITIVE),
+    };
+    let g = d.error;
     let middle = -n.value / d.value;
     let slope = (e + (middle.abs() + f64::MIN_POSITIVE) * g) / (d.value - g);
     let width =

@@ -135,7 +135,7 @@ impl<C: FlipTimes> FlipQueue<C> {
         }
     }
 
-    /// Inserts an event. O(log n) comparisons.
+    /// Inserts an event. O(log n) comparisons, but as many as there are spans where the event's time is hardly known.
     pub fn push(&mut self, times: &mut C, event: Event, timing: Timing<C::Key, C::Time>) {
         let queued = Queued {
             event,
@@ -236,7 +236,7 @@ impl<C: FlipTimes> FlipQueue<C> {
     /// Makes a run of the next span, until the first event of the run and the heap comes before the next one.
     fn move_horizon(&mut self, times: &mut C) {
         while let Some(next) = self.spans.last() {
-            // Both must come before: which of them is first may take an exact comparison.
+            // Both, if they are there: which of them is first may take an exact comparison.
             let beginning = next.beginning;
             let (run, heap) = (self.run.last().copied(), self.heap.first().copied());
             if let Some(horizon) = beginning
