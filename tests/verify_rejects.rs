@@ -587,38 +587,6 @@ fn an_upright_edge_in_a_facet() {
     assert_kinds(&run(&plc, &mesh), &["facet upright"]);
 }
 
-/// A tetrahedron in a cavity is no part of a convex hull, wherever it is in the list; what is in a cavity ends at facets.
-#[test]
-fn an_island_in_a_cavity() {
-    let (mut plc, mut hollow) = nested(false);
-    plc.holes.push([1.5, 1.25, 1.5]);
-    let n = hollow.vertices.len() as u32;
-    let corners = [
-        [1.1, 1.5, 1.1],
-        [1.3, 1.5, 1.1],
-        [1.1, 1.7, 1.1],
-        [1.1, 1.5, 1.3],
-    ];
-    hollow.vertices.extend(corners);
-    let island = ids([n, n + 1, n + 2, n + 3]);
-    hollow.tets.insert(0, island);
-    for _ in 0..2 {
-        for domain in [Domain::Auto, Domain::Hull, Domain::Inside] {
-            assert_kinds(&run_as(domain, &plc, &hollow), &["boundary not on facet"]);
-        }
-        hollow.tets.reverse();
-    }
-    // With its faces among the facets it is accepted.
-    let first = plc.vertices.len() as u32;
-    plc.vertices.extend(corners);
-    for face in [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]] {
-        plc.facets.push(facet(&face.map(|v| first + v)));
-    }
-    for domain in [Domain::Auto, Domain::Hull, Domain::Inside] {
-        assert_kinds(&run_as(domain, &plc, &hollow), &[]);
-    }
-}
-
 /// A tolerance that is no number, or below zero, forgives nothing.
 #[test]
 fn odd_tolerances() {

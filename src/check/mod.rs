@@ -202,7 +202,10 @@ impl Search<'_> {
         }
         let visit = |i: usize, j: usize, found: &mut FxHashSet<[u32; 2]>| {
             if touch(i, j) {
-                found.extend(pairs_of_owners(parts, faces[i], faces[j]));
+                let _ = pairs_of_owners(parts, [faces[i], faces[j]], &mut |pair| {
+                    found.insert(pair);
+                    ControlFlow::Continue(())
+                });
             }
         };
         let join = |found: &mut FxHashSet<[u32; 2]>, more| found.extend(more);
@@ -212,10 +215,7 @@ impl Search<'_> {
 
     /// Every part of the one simplex is in conflict with every part of the other.
     fn add_owners(&mut self, first: Face, second: Face) -> ControlFlow<()> {
-        for [f, g] in pairs_of_owners(self.parts, first, second) {
-            self.add(f, g)?;
-        }
-        ControlFlow::Continue(())
+        pairs_of_owners(self.parts, [first, second], &mut |[f, g]| self.add(f, g))
     }
 
     fn add(&mut self, f: u32, g: u32) -> ControlFlow<()> {
@@ -229,8 +229,12 @@ impl Search<'_> {
     }
 }
 
-/// The pairs of a part of one simplex and another part of another, the lower first.
-fn pairs_of_owners(parts: &Parts, first: Face, second: Face) -> Vec<[u32; 2]> {
+/// Visits the pairs of a part of one simplex and another part of another, the lower first.
+fn pairs_of_owners(
+    parts: &Parts,
+    [first, second]: [Face; 2],
+    visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
+) -> ControlFlow<()> {
     let owners = |face: Face| -> Vec<u32> {
         match face {
             Face::Vertex(v) => parts.owners_of_vertex(v).to_vec(),
@@ -242,10 +246,12 @@ fn pairs_of_owners(parts: &Parts, first: Face, second: Face) -> Vec<[u32; 2]> {
         }
     };
     let (first, second) = (owners(first), owners(second));
-    let pairs = first
-        .iter()
-        .flat_map(|&f| second.iter().map(move |&g| [f.min(g), f.max(g)]));
-    pairs.filter(|[f, g]| f != g).collect()
+    for &f in &first {
+        for &g in second.iter().filter(|&&g| g != f) {
+            visit([f.min(g), f.max(g)])?;
+        }
+    }
+    ControlFlow::Continue(())
 }
 
 fn notes(parts: &Parts) -> Notes {

@@ -152,4 +152,4 @@ use tests::piece_size;
 
 #[cfg(test)]
 #[path = "ahead_tests.rs"]
-mod tests;
+pub(super) mod tests;

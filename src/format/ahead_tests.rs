@@ -14,6 +14,11 @@ pub(super) fn piece_size() -> usize {
     SIZE.get()
 }
 
+/// A window of lines of the facets in which the beginning of one is looked for: mostly it ends within one.
+pub(in super::super) fn window() -> usize {
+    7 + SIZE.get() % 97
+}
+
 /// What is read, or the error, as texts.
 type Read = Box<dyn Fn(&[u8]) -> Result<String, String> + Send + Sync>;
 
@@ -145,6 +150,7 @@ fn edit() -> impl Strategy<Value = (usize, usize, String)> {
         "\r\n",
         " ",
         "#",
+        "# 3 1 2 3 3 1 2 3\n",
         "\\\n",
         "x",
         "-1 ",

@@ -173,13 +173,30 @@ fn facet_list(text: &mut Text, list: FacetList, plc: &mut Plc) -> Result<(), For
     Ok(())
 }
 
-/// Where a facet probably begins: several can be read from there.
+/// In how many bytes the beginning of a facet is looked for.
+#[cfg(not(test))]
+fn window() -> usize {
+    1 << 13
+}
+
+#[cfg(test)]
+use super::ahead::tests::window;
+
+/// The lines that are there to their ends.
+fn whole_lines(bytes: &[u8]) -> &[u8] {
+    // A carriage return at the end may belong to a line feed that is not there.
+    let inner = bytes.len().saturating_sub(1);
+    let feed = bytes.iter().rposition(|&b| b == b'\n');
+    let end = feed.or_else(|| bytes[..inner].iter().rposition(|&b| b == b'\r'));
+    &bytes[..end.map_or(0, |i| i + 1)]
+}
+
+/// Where a facet probably begins: several can be read from there. At the beginning of a line in any case.
 fn first_facet(bytes: &[u8], reads: impl Fn(&mut Text) -> bool) -> usize {
-    // The lines that are tried, how many facets there must be, and in how many bytes.
+    // The lines that are tried, and how many facets there must be.
     const LINES: usize = 16;
     const FACETS: usize = 4;
-    const BYTES: usize = 1 << 13;
-    let bytes = &bytes[..bytes.len().min(BYTES)];
+    let bytes = whole_lines(&bytes[..bytes.len().min(window())]);
     let mut text = Text::new(bytes, true);
     for _ in 0..LINES {
         let mut trial = text.clone();

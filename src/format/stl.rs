@@ -91,11 +91,15 @@ fn read_binary(bytes: &[u8], mesh: &mut Merged) -> Result<(), FormatError> {
 
 fn read_ascii(bytes: &[u8], mesh: &mut Merged) -> Result<(), FormatError> {
     let mut text = Text::new(bytes, false);
+    // Where lines do not begin with facets, looking ahead is of no use.
+    let mut helps = true;
     while mesh.in_solid || text.advance() {
         let begins = !mesh.in_solid;
         statement(&mut text, mesh)?;
-        if begins {
+        if begins && helps {
+            let more = text.rest().len();
             read_aligned(&mut text, u64::MAX, mesh, statement, first_facet);
+            helps = text.rest().len() < more;
         }
     }
     Ok(())

@@ -18,6 +18,9 @@
 //! face of each shell ([`super::winding`], called by [`super::domain`]). Where the tetrahedra do not even match at their
 //! faces, this file says instead which tetrahedra contain the centroids of boundary faces of others.
 //!
+//! Where the hull is kept there may be tetrahedra in its voids; all their vertices are in the hull ([`super::domain`]), and they
+//! end at facets, so that their faces do not cross those of the hull either.
+//!
 //! # What a tolerance leaves open
 //! With a tolerance above zero, faces of B with rounded vertices are on their facets up to it only, and fact 1 holds up to it
 //! only: where two facets, or two parts of one that is not flat, are nearer to each other than twice the tolerance, without

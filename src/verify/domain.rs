@@ -18,6 +18,7 @@ use super::segments::{self, Fate};
 use super::shells::{Shell, Shells};
 use super::winding::Boundary;
 use super::{Case, Domain, Findings, Violation, adjacency, hull};
+use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Number, Sign};
 use std::cmp::Ordering;
 
@@ -85,19 +86,37 @@ pub(super) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
     holes(case, &voids, is_hull, findings);
 }
 
-/// The shells of positive volume: those that the largest winds around, and it and the others. (Shells do not cross: one vertex
-/// tells which, unless it is on the largest.)
+/// The shells of positive volume: those all of whose vertices are on the largest one or inside; and it and the others.
+///
+/// Where the largest is convex, which is asked next, an island is thus in the hull, where only faces on facets are, which do not
+/// cross each other. A vertex on the surface of the largest that is none of its vertices may count as outside: what the tetrahedra
+/// of a hull do not match is no island.
 fn islands<'s>(case: &Case, outer: &[&'s Shell]) -> (Vec<&'s Shell>, Vec<&'s Shell>) {
     let smaller = |s: &Shell, t: &Shell| (t.volume.clone() - &s.volume).exact_sign().is_positive();
     let shells = outer.iter().copied();
     let Some(largest) = shells.reduce(|s, t| if smaller(s, t) { t } else { s }) else {
         return (Vec::new(), Vec::new());
     };
-    let hull = Boundary::new(case, largest.faces.clone(), outer.len());
+    if outer.len() == 1 {
+        return (Vec::new(), outer.to_vec());
+    }
+    let on_largest = vertices_of(largest);
+    let others = outer.iter().filter(|shell| !std::ptr::eq(**shell, largest));
+    let questions = others.map(|shell| shell.triangles.len()).sum();
+    let hull = Boundary::new(case, largest.faces.clone(), questions);
     outer.iter().copied().partition(|shell| {
-        let mut vertices = shell.triangles.iter().take(1).flatten();
-        !std::ptr::eq(*shell, largest) && vertices.any(|&v| hull.winding(&[v]) == Some(1))
+        let is_in_hull =
+            |v: &VertexId| on_largest.binary_search(v).is_ok() || hull.winding(&[*v]) == Some(1);
+        !std::ptr::eq(*shell, largest) && vertices_of(shell).iter().all(is_in_hull)
     })
+}
+
+/// The vertices of a shell in ascending order.
+fn vertices_of(shell: &Shell) -> Vec<VertexId> {
+    let mut vertices: Vec<VertexId> = shell.triangles.iter().flatten().copied().collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    vertices
 }
 
 /// Outside of each shell there is no tetrahedron ([`super::adjacency`]).

@@ -1,6 +1,6 @@
 //! Small meshes and PLCs for the tests of the verifier.
 
-#![allow(missing_docs)]
+#![allow(missing_docs, dead_code)]
 
 use tetflip::mesh::{ExportedMesh, VertexId};
 use tetflip::plc::{Facet, Plc};
