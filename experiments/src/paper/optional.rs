@@ -205,7 +205,7 @@ fn rivals(builder: &mut Builder, sheet: &Sheet) -> Result<String, PaperError> {
         let (tetgen, hxt) = (find("tetgen")?, find("hxt")?);
         let (tetgen, hxt) = (tetgen.first(), hxt.first());
         let mut verifier = sheet
-            .rows(&[("input", input), ("method", "verify")])?
+            .rows(&[("input", input), ("method", "verify"), ("threads", "1")])?
             .into_iter();
         let mut name = escaped(input);
         for ours in find("tetflip")? {
