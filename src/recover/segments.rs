@@ -31,7 +31,7 @@ use crate::predicate::PointStore;
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
 ///
 /// # Errors
-/// [`InvalidPlc`](crate::error::InvalidPlc) where a vertex lies on a segment; [`GaveUp::SegmentTooShort`] where a segment cannot be divided any
+/// [`InvalidPlc`](crate::error::InvalidPlc) where a vertex lies on a segment; [`SegmentTooShort`](crate::error::GaveUp::SegmentTooShort) where a segment cannot be divided any
 /// more in the store's coordinates, as happens where segments or facets intersect. The tetrahedralization may then be gone.
 pub fn recover_segments<P: PointStore + Clone>(
     complex: &Complex,
