@@ -87,7 +87,9 @@ mod tests {
             rows.find(|r| r.method == "flip filtered").expect("a row")
         };
         let slab = filtered(Kind::Slab);
-        assert!(slab.is_ok() && slab.by_floats > Some(0.99), "{slab:?}");
+        // Flips of one circuit are due at the same time, whatever the coordinates are.
+        assert!(slab.is_ok() && slab.by_floats > Some(0.97), "{slab:?}");
+        assert!(slab.by_exact_quotients < Some(0.01), "{slab:?}");
         let lattice = filtered(Kind::Lattice(Cut::Between));
         assert!(lattice.by_perturbation > Some(0.2), "{lattice:?}");
         assert!(lattice.repetitions == 1 && lattice.flips > 100);
