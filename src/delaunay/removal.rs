@@ -6,7 +6,7 @@
 //! those of the neighbours. Ghosts, where v is on the convex hull, are treated like the others.
 
 use super::delaunay;
-use crate::mesh::{Corner, TetId, TetMesh, VertexId};
+use crate::mesh::{Corner, TetId, TetMesh, VertexId, canonical_face};
 use crate::predicate::PointStore;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -28,18 +28,18 @@ pub fn filling<P: PointStore>(
     for t in local.all() {
         for slot in 0..4 {
             let c = t.corner(slot);
-            inside.insert(rotated(local.facet(c)), c);
+            inside.insert(canonical_face(local.facet(c)), c);
         }
     }
     // The facets of the hole, as its own tetrahedra see them.
     let border: FxHashSet<[VertexId; 3]> = star
         .iter()
-        .map(|&t| rotated(mesh.facet(mesh.corner_of(t, v))))
+        .map(|&t| canonical_face(mesh.facet(mesh.corner_of(t, v))))
         .collect();
     let mut open = Vec::new();
     let mut taken = FxHashSet::default();
     for &t in star {
-        let c = inside.get(&rotated(mesh.facet(mesh.corner_of(t, v))))?;
+        let c = inside.get(&canonical_face(mesh.facet(mesh.corner_of(t, v))))?;
         if taken.insert(c.tet()) {
             open.push(c.tet());
         }
@@ -48,23 +48,13 @@ pub fn filling<P: PointStore>(
     while let Some(t) = open.pop() {
         filling.push(local.vertices(t));
         for c in (0..4).map(|slot| t.corner(slot)) {
-            if !border.contains(&rotated(local.facet(c))) && taken.insert(local.neighbor(c)) {
+            if !border.contains(&canonical_face(local.facet(c))) && taken.insert(local.neighbor(c))
+            {
                 open.push(local.neighbor(c));
             }
         }
     }
     mesh.can_replace(star, &filling).then_some(filling)
-}
-
-/// The even permutation of a facet that begins with its smallest vertex.
-fn rotated([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
 }
 
 #[cfg(test)]

@@ -52,7 +52,7 @@ pub(crate) fn canonical_tet(mut v: [VertexId; 4]) -> [VertexId; 4] {
 }
 
 /// The rotation of a triangle that has its smallest vertex first.
-fn canonical_face([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+pub(crate) fn canonical_face([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
     if a < b && a < c {
         [a, b, c]
     } else if b < c {

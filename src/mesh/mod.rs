@@ -10,7 +10,7 @@ mod parts;
 mod replace;
 mod topology;
 
-pub(crate) use canonical::canonical_tet;
+pub(crate) use canonical::{canonical_face, canonical_tet};
 pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 pub(crate) use flip::behind;
 pub(crate) use ids::any_infinite;

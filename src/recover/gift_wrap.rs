@@ -41,7 +41,7 @@ use super::cavity::{Face, Retriangulation, face};
 use super::region::Region;
 use super::side::{Side, Sides};
 use super::sight::Sight;
-use crate::mesh::{TetMesh, VertexId};
+use crate::mesh::{TetMesh, VertexId, canonical_face};
 use crate::predicate::PointStore;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -107,7 +107,7 @@ fn not_locally_delaunay<P: PointStore>(
     let inner = wrapped.new.iter().flat_map(apexes);
     // The boundary of R, seen from outside.
     let outer = region.boundary(mesh).into_iter().map(|c| {
-        let facet = rotated(mesh.facet(mesh.twin(c)));
+        let facet = canonical_face(mesh.facet(mesh.twin(c)));
         (facet, mesh.apex_across(c))
     });
     let apex_in_front: FxHashMap<Facet, VertexId> = inner.chain(outer).collect();
@@ -124,17 +124,6 @@ fn not_locally_delaunay<P: PointStore>(
     faces.into_iter().filter(|&f| !is_constrained(f)).count()
 }
 
-/// The same facet with its smallest vertex first.
-fn rotated([a, b, c]: [VertexId; 3]) -> Facet {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
-}
-
 /// The same facet seen from behind.
 fn reversed([a, b, c]: Facet) -> Facet {
     [a, c, b]
@@ -143,10 +132,10 @@ fn reversed([a, b, c]: Facet) -> Facet {
 /// The facets of a positive tetrahedron, each with the vertex in front.
 fn apexes(&[a, b, c, d]: &[VertexId; 4]) -> [(Facet, VertexId); 4] {
     [
-        (rotated([b, c, d]), a),
-        (rotated([a, d, c]), b),
-        (rotated([a, b, d]), c),
-        (rotated([a, c, b]), d),
+        (canonical_face([b, c, d]), a),
+        (canonical_face([a, d, c]), b),
+        (canonical_face([a, b, d]), c),
+        (canonical_face([a, c, b]), d),
     ]
 }
 
@@ -183,7 +172,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
             .iter()
             .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
         let waiting: Vec<Facet> = corners
-            .map(|c| rotated(mesh.facet(c)))
+            .map(|c| canonical_face(mesh.facet(c)))
             .filter(|facet| facet.iter().all(|&v| is_here(v)))
             .collect();
         let finished: FxHashMap<Facet, bool> = waiting.iter().map(|&s| (s, false)).collect();
