@@ -1,8 +1,8 @@
 //! Meshes a cube and verifies the mesh.
 
 use tetflip::cdt::{Options, tetrahedralize};
+use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc};
 use tetflip::report::Report;
 use tetflip::verify::{VerifyOptions, verify};
 

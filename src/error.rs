@@ -2,8 +2,9 @@
 //! both name the vertices and facets in question.
 
 use crate::delaunay::DelaunayError;
+use crate::exchange::Plc;
 use crate::mesh::VertexId;
-use crate::plc::{EdgeName, FacetName, Plc, PlcError, VertexName};
+use crate::plc::{EdgeName, FacetName, PlcError, VertexName};
 
 /// Why there is no tetrahedralization.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -193,7 +194,7 @@ impl Failure {
     }
 }
 
-/// Intersections that recovery runs into. Vertex ids count from 0; facets are indices into [`crate::plc::Plc::facets`].
+/// Intersections that recovery runs into. Vertex ids count from 0; facets are indices into [`crate::exchange::Plc::facets`].
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum InvalidPlc {
     /// A vertex in the interior of a segment.

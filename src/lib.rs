@@ -35,6 +35,7 @@ pub mod check;
 pub mod clock;
 pub mod delaunay;
 pub mod error;
+pub mod exchange;
 pub mod format;
 pub mod generate;
 #[allow(unsafe_code)]

@@ -8,8 +8,9 @@ use num_traits::Zero;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use tetflip::check::{Conflict, Kind, Part, check};
+use tetflip::exchange::{Facet, Plc, Segment};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc, PlcError, Segment};
+use tetflip::plc::PlcError;
 
 fn ids(corners: &[u32]) -> Vec<VertexId> {
     corners.iter().map(|&v| VertexId(v)).collect()

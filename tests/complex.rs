@@ -4,8 +4,9 @@ mod fixtures;
 
 use fixtures::{check_frame, facet, ids, nested, square, tilted, walks};
 use proptest::prelude::*;
+use tetflip::exchange::{Facet, Plc, Segment};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Complex, Facet, Plc, PlcError, Polygon, Segment};
+use tetflip::plc::{Complex, PlcError, Polygon};
 
 /// The only polygon of a PLC.
 fn only(plc: &Plc) -> Polygon {

@@ -8,8 +8,8 @@ use common::{box_facets, plc_of_points, quiet, sorted_tets};
 use proptest::prelude::*;
 use tetflip::cdt::Cdt;
 use tetflip::error::{DeletionRefused, Failure};
+use tetflip::exchange::{Plc, Segment};
 use tetflip::mesh::{TetMesh, VertexId};
-use tetflip::plc::{Plc, Segment};
 use tetflip::predicate::PointStore;
 use tetflip::recover::deletion::DeletionCounts;
 use tetflip::recover::flips::{
@@ -517,7 +517,7 @@ fn a_triangle_holds_a_polygon_in_place() {
 fn a_deleted_polygon_bounds_nothing() {
     let mut plc = Plc::default();
     box_facets(&mut plc, [2, 1, 1], 1.0, &[true; 36]);
-    let outer = |facet: &tetflip::plc::Facet| {
+    let outer = |facet: &tetflip::exchange::Facet| {
         let corners = facet.polygons[0].iter();
         corners
             .map(|v| plc.vertices[v.index()][0])

@@ -1,12 +1,12 @@
 //! The readers of TetGen's files, OFF and STL: what they must accept, and what they must refuse and where. The other formats
 //! are in `surface_formats`, random files in `fuzz_formats`.
 
+use tetflip::exchange::Plc;
 use tetflip::format::{
     FormatError, Place, Reason, read_node, read_off, read_plc, read_poly, read_smesh, read_stl,
     write_poly,
 };
 use tetflip::mesh::VertexId;
-use tetflip::plc::Plc;
 
 const POLY: &str = "# a pyramid with a window, a crack, and a wire
 6 3 1 1   # attributes and markers

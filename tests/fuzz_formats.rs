@@ -5,11 +5,11 @@
 
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
+use tetflip::exchange::Plc;
 use tetflip::format::{
     FormatError, read_medit, read_mesh, read_node, read_obj, read_off, read_ply, read_poly,
     read_smesh, read_stl,
 };
-use tetflip::plc::Plc;
 
 const POLY: &str = "# a tetrahedron, a crack and a wire
 6 3 1 1

@@ -14,9 +14,10 @@ use std::time::Duration;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::delaunay::delaunay;
 use tetflip::error::{Failure, GaveUp, InvalidPlc};
-use tetflip::mesh::{ExportedMesh, VertexId};
+use tetflip::exchange::ExportedMesh;
+use tetflip::exchange::{Facet, Plc, Region, Segment};
+use tetflip::mesh::VertexId;
 use tetflip::number::Bits;
-use tetflip::plc::{Facet, Plc, Region, Segment};
 use tetflip::predicate::{DoublePoints, Steiner};
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
@@ -295,7 +296,7 @@ fn soup() -> impl Strategy<Value = Plc> {
     ];
     let halves = || [-1i32..12, -1..12, -1..12];
     let facets = prop::collection::vec(
-        (polygons, prop::collection::vec(halves(), 0..2), 0..3),
+        (polygons, prop::collection::vec(halves(), 0..2), 0i64..3),
         0..7,
     );
     let segments = prop::collection::vec([0usize..64, 0..64], 0..4);
@@ -381,7 +382,7 @@ fn rectangles() -> impl Strategy<Value = Plc> {
             let polygon: Vec<VertexId> = square[..n].iter().map(|&p| add(&mut plc, p)).collect();
             plc.facets.push(Facet {
                 polygons: vec![polygon],
-                marker: i32::from(corners == 2),
+                marker: i64::from(corners == 2),
                 ..Facet::default()
             });
         }
@@ -430,7 +431,7 @@ fn stretched() -> impl Strategy<Value = Plc> {
                     let f = d.mesh.facet(c);
                     plc.facets.push(Facet {
                         polygons: vec![f.to_vec()],
-                        marker: (k % 2) as i32,
+                        marker: (k % 2) as i64,
                         ..Facet::default()
                     });
                     if edges[k % 41] == 0 {

@@ -4,8 +4,9 @@ mod fixtures;
 
 use fixtures::{check_frame, edges, facet, nested, square, tilted, walks};
 use proptest::prelude::*;
+use tetflip::exchange::{Plc, Segment};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Complex, Plc, PlcError, Segment};
+use tetflip::plc::{Complex, PlcError};
 
 /// A cube of twelve triangles.
 fn cube() -> Plc {

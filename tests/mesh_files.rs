@@ -3,8 +3,9 @@
 use proptest::prelude::*;
 use std::path::Path;
 use tempfile::TempDir;
+use tetflip::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 use tetflip::format::{MeshFileError, MeshLineError, UnwritableMesh, read_mesh, write_mesh};
-use tetflip::mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, VertexId};
+use tetflip::mesh::VertexId;
 use tetflip::predicate::Parameter;
 
 /// Any finite double: every exponent, subnormal, both zeros, and short decimals.
@@ -27,9 +28,9 @@ fn mesh() -> impl Strategy<Value = ExportedMesh> {
             let id = (0..vertices.len()).prop_map(VertexId::new);
             let tets = prop::collection::vec((prop::array::uniform4(id.clone()), finite()), 0..20);
             let faces =
-                prop::collection::vec((prop::array::uniform3(id.clone()), any::<i32>()), 0..20);
+                prop::collection::vec((prop::array::uniform3(id.clone()), any::<i64>()), 0..20);
             let edges =
-                prop::collection::vec((prop::array::uniform2(id.clone()), any::<i32>()), 0..20);
+                prop::collection::vec((prop::array::uniform2(id.clone()), any::<i64>()), 0..20);
             let exact =
                 prop::collection::vec((id.clone(), [id.clone(), id], [finite(), finite()]), 0..5);
             (tets, faces, edges, exact).prop_map(move |(tets, faces, edges, exact)| {
@@ -48,6 +49,7 @@ fn mesh() -> impl Strategy<Value = ExportedMesh> {
                     faces: faces.into_iter().map(face).collect(),
                     edges: edges.into_iter().map(edge).collect(),
                     exact: exact.into_iter().map(position).collect(),
+                    ..ExportedMesh::default()
                 }
             })
         })
@@ -213,6 +215,7 @@ fn what_is_written() {
             ends: ids([0, 1]),
             t: 0.25.into(),
         }],
+        ..ExportedMesh::default()
     };
     let directory = TempDir::new().unwrap();
     let written = write_mesh(&directory.path().join("m.face"), &mesh).unwrap();

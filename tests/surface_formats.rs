@@ -1,11 +1,11 @@
 //! The readers of PLY, OBJ, Medit and binary OFF: the same cube in all of them, what they refuse and where, and what
 //! `read_plc` says of files that are not what their name says.
 
+use tetflip::exchange::Plc;
 use tetflip::format::{
     FormatError, Place, Reason, read_medit, read_obj, read_off, read_plc, read_ply,
 };
 use tetflip::mesh::VertexId;
-use tetflip::plc::Plc;
 
 const FACES: [[u32; 4]; 6] = [
     [0, 2, 3, 1],

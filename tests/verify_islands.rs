@@ -4,7 +4,8 @@ mod meshes;
 
 use meshes::*;
 use tetflip::delaunay::delaunay;
-use tetflip::mesh::{ExportedMesh, VertexId};
+use tetflip::exchange::ExportedMesh;
+use tetflip::mesh::VertexId;
 use tetflip::predicate::DoublePoints;
 use tetflip::verify::Domain;
 

@@ -4,8 +4,9 @@
 mod meshes;
 
 use meshes::*;
-use tetflip::mesh::{ExportedEdge, ExportedFace, ExportedMesh, VertexId};
-use tetflip::plc::{Region, Segment};
+use tetflip::exchange::{ExportedEdge, ExportedFace, ExportedMesh};
+use tetflip::exchange::{Region, Segment};
+use tetflip::mesh::VertexId;
 use tetflip::verify::{Domain, VerifyOptions, Violation, verify};
 
 #[test]

@@ -4,9 +4,10 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tetflip::cdt::{Options, tetrahedralize};
+use tetflip::exchange::ExportedMesh;
+use tetflip::exchange::Plc;
 use tetflip::generate::{Kind, generate};
-use tetflip::mesh::{ExportedMesh, VertexId};
-use tetflip::plc::Plc;
+use tetflip::mesh::VertexId;
 use tetflip::predicate::Steiner;
 use tetflip::report::Report;
 use tetflip::verify::{Verdict, VerifyOptions, verify};

@@ -4,8 +4,8 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tetflip::cdt::Cdt;
 use tetflip::delaunay::{Delaunay, delaunay};
+use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc};
 use tetflip::predicate::DoublePoints;
 use tetflip::report::Report;
 

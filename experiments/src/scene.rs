@@ -10,8 +10,8 @@
 
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc};
 
 /// Half the sides of the rectangle along x and y: more than the 1 of the slab, and not equal.
 pub const RECTANGLE: [f64; 2] = [1.25, 1.125];

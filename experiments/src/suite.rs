@@ -1,9 +1,9 @@
 //! The models of Tables 1 and 2: generated ones of the paper's kinds and sizes, larger ones, and those of the user's.
 
 use std::path::{Path, PathBuf};
+use tetflip::exchange::Plc;
 use tetflip::format::read_plc;
 use tetflip::generate::{Kind, generate};
-use tetflip::plc::Plc;
 
 /// One model.
 #[derive(Clone, Debug)]

@@ -6,8 +6,8 @@
 use crate::method::Method;
 use tetflip::cdt::Cdt;
 use tetflip::error::Failure;
-use tetflip::mesh::ExportedMesh;
-use tetflip::plc::Plc;
+use tetflip::exchange::ExportedMesh;
+use tetflip::exchange::Plc;
 use tetflip::recover::polygons::PolygonCounts;
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};

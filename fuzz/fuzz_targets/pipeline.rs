@@ -4,7 +4,7 @@
 
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc, Segment};
+use tetflip::exchange::{Facet, Plc, Segment};
 use tetflip::recover::polygons::Insertion;
 use tetflip::report::Report;
 

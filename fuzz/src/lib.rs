@@ -1,7 +1,7 @@
 //! What must hold whatever a reader is given.
 
 use tetflip::format::FormatError;
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// What is accepted is finite, in range, and no larger than the file; what is refused can be said.
 pub fn check(bytes: &[u8], result: Result<Plc, FormatError>) {

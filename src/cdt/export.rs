@@ -2,11 +2,9 @@
 
 use super::Cdt;
 use crate::error::{Failure, GaveUp};
-use crate::mesh::{
-    ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, SimplexIndex, TetId, VertexId,
-    canonical_tet, sort_by_least,
-};
-use crate::plc::Plc;
+use crate::exchange::Plc;
+use crate::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
+use crate::mesh::{SimplexIndex, TetId, VertexId, canonical_tet, sort_by_least};
 use crate::predicate::{DoublePoints, PointStore};
 use crate::recover::cavity::face;
 use crate::recover::domain::{keeps_edge, mark_domain};
@@ -87,6 +85,7 @@ impl Cdt<DoublePoints> {
                 edges: self.edges(&repair, &faces),
                 faces,
                 tets: vertices,
+                ..ExportedMesh::default()
             };
             report.output_tets = mesh.tets.len();
             report.output_faces = mesh.faces.len();

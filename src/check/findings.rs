@@ -1,7 +1,8 @@
 //! What the check finds: errors of single facets, conflicts of two parts, and notes on what is unusual but allowed.
 
+use crate::exchange::Plc;
 use crate::mesh::VertexId;
-use crate::plc::{EdgeName, FacetName, Plc, PlcError, VertexName};
+use crate::plc::{EdgeName, FacetName, PlcError, VertexName};
 use serde::Serialize;
 
 /// A part of a PLC that can be in conflict with another.

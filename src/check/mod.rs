@@ -43,8 +43,8 @@ mod triangulate;
 
 pub use findings::{Conflict, Findings, Kind, Notes, Part};
 
+use crate::exchange::Plc;
 use crate::mesh::VertexId;
-use crate::plc::Plc;
 use parts::Parts;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};

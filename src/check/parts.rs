@@ -6,10 +6,11 @@
 use super::findings::Part;
 use super::meet::Simplex;
 use super::triangulate::triangulate;
+use crate::exchange::Plc;
 use crate::mesh::VertexId;
 use crate::plc::{
-    EdgeName, FacetInput, Plc, PlcError, Polygon, Projected, Projection, VertexName,
-    representatives, undirected,
+    EdgeName, FacetInput, PlcError, Polygon, Projected, Projection, VertexName, representatives,
+    undirected,
 };
 use std::ops::Range;
 

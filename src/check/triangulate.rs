@@ -200,7 +200,8 @@ impl Sweep<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plc::{Complex, Facet, Plc, Projection};
+    use crate::exchange::{Facet, Plc};
+    use crate::plc::{Complex, Projection};
 
     /// Twice the area and the number of the triangles of one facet, in the plane z = 0 and in either sense; all of them are
     /// counterclockwise.

@@ -4,9 +4,10 @@ use super::{Stop, check_outputs, read, say};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use tetflip::check::{Conflict, Findings, Part, check};
+use tetflip::exchange::Plc;
 use tetflip::format::write_conflicts;
 use tetflip::mesh::VertexId;
-use tetflip::plc::{EdgeName, Plc, VertexName};
+use tetflip::plc::{EdgeName, VertexName};
 
 #[derive(clap::Args)]
 pub(crate) struct CheckArguments {

@@ -3,8 +3,10 @@
 use super::{Stop, check_outputs, read, save, say};
 use std::path::PathBuf;
 use tetflip::delaunay::delaunay;
-use tetflip::mesh::{ExportedMesh, VertexId};
-use tetflip::plc::{Complex, Plc};
+use tetflip::exchange::ExportedMesh;
+use tetflip::exchange::Plc;
+use tetflip::mesh::VertexId;
+use tetflip::plc::Complex;
 use tetflip::predicate::DoublePoints;
 
 #[derive(clap::Args)]

@@ -9,11 +9,11 @@ pub(crate) mod verify;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use tetflip::exchange::ExportedMesh;
+use tetflip::exchange::Plc;
 use tetflip::format::{
     FormatError, mesh_paths, node_path, read_plc, read_poly, read_smesh, write_mesh,
 };
-use tetflip::mesh::ExportedMesh;
-use tetflip::plc::Plc;
 
 /// A failure with its exit status.
 pub(crate) struct Stop {

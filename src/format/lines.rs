@@ -32,7 +32,7 @@ impl Lines {
     }
 
     /// A marker after a space.
-    pub fn next_marker(&mut self, marker: i32) {
+    pub fn next_marker(&mut self, marker: i64) {
         self.text.push(b' ');
         self.text
             .extend_from_slice(self.digits.format(marker).as_bytes());
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn blocks_keep_their_order() {
-        let items: Vec<i32> = (0..300_000).map(|i| i % 7 - 3).collect();
+        let items: Vec<i64> = (0..300_000).map(|i| i % 7 - 3).collect();
         let mut out = Vec::new();
         write_lines(&mut out, &items, |line, i, &marker| {
             line.number(i as u64);

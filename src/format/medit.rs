@@ -10,8 +10,8 @@ use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Place, Reason};
 use super::poly::{marker_of, vertex};
 use super::text::Text;
+use crate::exchange::{Facet, Plc, Segment};
 use crate::mesh::VertexId;
-use crate::plc::{Facet, Plc, Segment};
 
 /// What is skipped: the numbers per element.
 const SKIPPED: [(&str, u64); 25] = [
@@ -236,7 +236,7 @@ fn vertex_and_reference(text: &mut Text, vertices: &mut Vec<[f64; 3]>) -> Result
 fn element<const N: usize>(
     text: &mut Text,
     count: usize,
-) -> Result<([VertexId; N], i32), FormatError> {
+) -> Result<([VertexId; N], i64), FormatError> {
     let mut vertices = [VertexId(0); N];
     for v in &mut vertices {
         let token = text.anywhere("a vertex")?;

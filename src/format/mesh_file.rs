@@ -7,7 +7,8 @@
 //! Extensions may be written in capitals, and then the other files' are as well: `M.ELE` stands beside `M.NODE`.
 
 use super::{MeshFileError, UnwritableMesh, sibling, tetgen_mesh, vtu};
-use crate::mesh::{ExportedMesh, VertexId};
+use crate::exchange::ExportedMesh;
+use crate::mesh::VertexId;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;

@@ -39,7 +39,7 @@ pub use poly::{read_node, read_poly, read_smesh};
 pub use poly_file::write_poly;
 pub use stl::read_stl;
 
-use crate::plc::Plc;
+use crate::exchange::Plc;
 use std::path::{Path, PathBuf};
 
 /// Reads a file in the format that its extension names, in either case: `.poly`, `.smesh`, `.node`, `.off`, `.stl`,

@@ -12,8 +12,8 @@
 use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Place, Reason};
 use super::text::Text;
+use crate::exchange::{Facet, Plc, Segment};
 use crate::mesh::VertexId;
-use crate::plc::{Facet, Plc, Segment};
 
 /// Reads an OBJ file.
 pub fn read_obj(bytes: &[u8]) -> Result<Plc, FormatError> {

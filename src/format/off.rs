@@ -12,7 +12,7 @@ use super::error::{FormatError, Reason};
 use super::off_binary::read_binary;
 use super::poly;
 use super::text::Text;
-use crate::plc::{Facet, Plc};
+use crate::exchange::{Facet, Plc};
 
 /// Reads an OFF file.
 pub fn read_off(bytes: &[u8]) -> Result<Plc, FormatError> {

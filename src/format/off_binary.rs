@@ -9,8 +9,8 @@
 
 use super::bytes::Bytes;
 use super::error::{FormatError, Place, Reason};
+use crate::exchange::{Facet, Plc};
 use crate::mesh::VertexId;
-use crate::plc::{Facet, Plc};
 
 /// Reads what follows the line of the header, which ends at offset `at`. `extra` bytes follow the coordinates of each vertex.
 pub(super) fn read_binary(bytes: &[u8], at: usize, extra: u64) -> Result<Plc, FormatError> {

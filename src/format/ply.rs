@@ -14,8 +14,8 @@ use super::bytes::Bytes;
 use super::error::{FormatError, Reason};
 use super::ply_header::{Element, Encoding, Property, Role, Type, header};
 use super::text::Text;
+use crate::exchange::{Facet, Plc, Segment};
 use crate::mesh::VertexId;
-use crate::plc::{Facet, Plc, Segment};
 
 /// Reads a PLY file.
 pub fn read_ply(bytes: &[u8]) -> Result<Plc, FormatError> {

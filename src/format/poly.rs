@@ -20,8 +20,8 @@ use super::ahead::{Rows, read_ahead, read_aligned};
 use super::error::{FormatError, Reason};
 use super::text::Text;
 use super::vertices::Vertices;
+use crate::exchange::{Facet, Plc, Region, Segment};
 use crate::mesh::VertexId;
-use crate::plc::{Facet, Plc, Region, Segment};
 
 /// A list of vertices: the number of the first, and the coordinates.
 type VertexList = (u32, Vec<[f64; 3]>);
@@ -294,16 +294,15 @@ fn smesh_facet(text: &mut Text, vertices: Numbers) -> Result<Facet, FormatError>
     })
 }
 
-fn marker(text: &mut Text) -> Result<i32, FormatError> {
+fn marker(text: &mut Text) -> Result<i64, FormatError> {
     match text.token() {
         Some(token) => marker_of(text, token),
         None => Ok(0),
     }
 }
 
-pub(super) fn marker_of(text: &Text, token: &[u8]) -> Result<i32, FormatError> {
-    let marker = text.integer(token)?;
-    i32::try_from(marker).map_err(|_| text.bad(token, "a marker of 32 bits"))
+pub(super) fn marker_of(text: &Text, token: &[u8]) -> Result<i64, FormatError> {
+    text.integer(token)
 }
 
 fn corners(text: &mut Text, (first, vertices): Numbers) -> Result<Vec<VertexId>, FormatError> {

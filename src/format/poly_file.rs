@@ -2,8 +2,8 @@
 
 use super::MeshFileError;
 use super::mesh_file::{Shortest, stage};
+use crate::exchange::Plc;
 use crate::mesh::VertexId;
-use crate::plc::Plc;
 use std::io::{self, Write};
 use std::path::Path;
 

@@ -13,8 +13,8 @@
 use super::ahead::{Rows, read_aligned};
 use super::error::{FormatError, Place, Reason};
 use super::text::Text;
+use crate::exchange::{Facet, Plc};
 use crate::mesh::VertexId;
-use crate::plc::{Facet, Plc};
 use rustc_hash::FxHashMap;
 
 const HEADER: usize = 84;

@@ -20,7 +20,8 @@ use super::mesh_file::Shortest;
 use super::text::{Text, whole};
 use super::vertices::Vertices;
 use super::{MeshFileError, MeshLineError, sibling};
-use crate::mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, VertexId};
+use crate::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
+use crate::mesh::VertexId;
 use crate::predicate::Parameter;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -141,6 +142,7 @@ pub(super) fn read(path: &Path) -> Result<ExportedMesh, MeshFileError> {
         regions,
         faces,
         edges,
+        ..ExportedMesh::default()
     })
 }
 
@@ -263,9 +265,9 @@ struct Marker {
 }
 
 impl Marker {
-    fn read(self, line: &mut Line) -> Result<i32, MeshLineError> {
+    fn read(self, line: &mut Line) -> Result<i64, MeshLineError> {
         if self.given {
-            line.marker("the marker")
+            line.integer("the marker")
         } else {
             Ok(0)
         }
@@ -392,12 +394,6 @@ impl<'a> Line<'a> {
     fn integer(&mut self, what: &'static str) -> Result<i64, MeshLineError> {
         let field = self.next().ok_or(MeshLineError::Missing(what))?;
         whole(field).map_or_else(|| parse(field, what), Ok)
-    }
-
-    fn marker(&mut self, what: &'static str) -> Result<i32, MeshLineError> {
-        let field = self.next().ok_or(MeshLineError::Missing(what))?;
-        let marker = whole(field).and_then(|marker| i32::try_from(marker).ok());
-        marker.map_or_else(|| parse(field, what), Ok)
     }
 
     /// A field at the end of a header that may be left out.

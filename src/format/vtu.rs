@@ -10,7 +10,8 @@
 //! they need.
 
 use super::mesh_file::Shortest;
-use crate::mesh::{ExportedMesh, VertexId};
+use crate::exchange::ExportedMesh;
+use crate::mesh::VertexId;
 use std::fmt::Display;
 use std::io::{self, Write};
 
@@ -116,7 +117,7 @@ pub(super) fn close(out: &mut dyn Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::ExportedFace;
+    use crate::exchange::ExportedFace;
 
     #[test]
     fn two_tetrahedra_and_a_face() {
@@ -138,6 +139,7 @@ mod tests {
             }],
             edges: vec![],
             exact: vec![],
+            ..ExportedMesh::default()
         };
         let mut bytes = Vec::new();
         write(&mut bytes, &mesh).unwrap();

@@ -7,7 +7,7 @@
 
 use super::draft::{Draft, along};
 use super::draw::{Draw, turn};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// The radius of the bend; the radii of the pipe are less.
 const BEND: f64 = 2.0;

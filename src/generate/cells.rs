@@ -2,7 +2,7 @@
 
 use super::draft::{Draft, Sets};
 use super::draw::Draw;
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// Planes at random distances along all axes. The sides of the box are complete; one wall in five is missing between
 /// others, which may stand free. One room in fifty, not at the outside, is a hole, and has all its walls.

@@ -6,7 +6,7 @@
 use super::draft::{Draft, Loop, Sets, placed, rectangle};
 use super::draw::{Draw, circle, turn};
 use super::turned::Face;
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// The distance of cells.
 const PITCH: f64 = 4.0;

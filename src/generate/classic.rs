@@ -2,7 +2,7 @@
 
 use super::draft::{Draft, lift, sides};
 use super::draw::{Draw, grid, turn};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// Schönhardt's polyhedra, and others like it with bases of up to seven corners: a prism whose top is turned against its base,
 /// with diagonals that go the longer way, so that its sides bend inwards. With three corners no tetrahedralization has no

@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::draw::Draw;
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// The corners of polygons, as combinations of two vectors with small whole numbers: with multiples of 2⁻²⁰ for vectors
 /// they are exactly planar. Where there is a second polygon, it is a hole.

@@ -4,7 +4,7 @@
 use super::draft::{Draft, Loop, placed, rectangle};
 use super::draw::{Draw, circle};
 use super::turned::{Face, Turned};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// The length of the case per cylinder, and its height.
 const PITCH: f64 = 4.0;

@@ -4,8 +4,8 @@
 //! plane facet then share a coordinate, and a wall has two edges parallel to the axis, so that both are exactly planar
 //! whatever the other coordinates are.
 
+use crate::exchange::{Facet, Plc, Region, Segment};
 use crate::mesh::VertexId;
-use crate::plc::{Facet, Plc, Region, Segment};
 use rustc_hash::FxHashMap;
 
 /// A closed curve in a plane: the corners of a polygon, in order.

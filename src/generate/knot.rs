@@ -2,7 +2,7 @@
 
 use super::draft::{Draft, along};
 use super::draw::{Draw, turn};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// How often a knot goes around the axis of its torus, and around the torus' core; and the radius of its tube, less than
 /// half the distance of its strands and less than its radius of curvature.

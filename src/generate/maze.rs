@@ -9,7 +9,7 @@
 
 use super::draft::{Draft, Sets, sides};
 use super::draw::{Draw, turn};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 use std::collections::BTreeMap;
 
 /// The heights of the base, the floor and the top.

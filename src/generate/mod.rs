@@ -38,7 +38,7 @@ mod terrain;
 mod thin;
 mod turned;
 
-use crate::plc::Plc;
+use crate::exchange::Plc;
 use draw::Draw;
 use std::fmt;
 use std::str::FromStr;

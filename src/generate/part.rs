@@ -4,7 +4,7 @@
 use super::draft::{Draft, Loop, rectangle};
 use super::draw::{Draw, circle, turn};
 use super::turned::{Face, Turned};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// A block; on each of its sides a grid of bores, counterbores, pockets, bosses, and bosses with a bore. No recess is
 /// deeper than 1, and none is nearer than 1.5 to an edge of the block, so that they do not meet.

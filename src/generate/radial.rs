@@ -3,7 +3,7 @@
 
 use super::draft::{Draft, along};
 use super::draw::Draw;
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// A sphere: the faces of an octahedron divided evenly, and all points moved to distance 1, rounded; then turned about
 /// the origin. All vertices are cospherical up to rounding.

@@ -2,7 +2,7 @@
 
 use super::draft::{Draft, Loop, lift, placed, sides};
 use super::draw::{Draw, circle, turn};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// A shaft of many steps and chamfers: rings of exactly similar regular polygons, so that chamfers, too, are exactly planar
 /// quadrangles. The corners of a ring are cocircular, those of some rings cospherical, up to rounding, and by symmetry

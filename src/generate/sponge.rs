@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::draw::Draw;
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// The squares on the surface of one sponge, and those of one of its sides: 2·20ᵈ + 4·8ᵈ and 8ᵈ.
 fn squares(depth: u32) -> [usize; 2] {

@@ -3,7 +3,7 @@
 
 use super::draft::{Draft, Sets, lift};
 use super::draw::{Draw, grid};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// The number of layers.
 const LAYERS: usize = 3;

@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::draw::{Draw, turn};
-use crate::plc::Plc;
+use crate::exchange::Plc;
 
 /// A book in a box: upright pages around one edge, whose angles differ by factors of up to 1024; rectangles of random lengths, and
 /// triangles.

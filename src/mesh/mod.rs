@@ -1,7 +1,6 @@
 //! The tetrahedral mesh: topology alone. Nothing here knows a coordinate or a number type.
 
 mod canonical;
-mod export;
 mod flip;
 mod ids;
 mod incidence;
@@ -11,7 +10,6 @@ mod replace;
 mod topology;
 
 pub(crate) use canonical::{canonical_face, canonical_tet};
-pub use export::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 pub(crate) use flip::behind;
 pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};

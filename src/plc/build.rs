@@ -5,7 +5,8 @@
 //! [`super::subdivision`] for what facets of many edges cost.
 
 use super::facet::{FacetInput, undirected};
-use super::{Complex, EdgeName, FacetName, Plc, PlcError, Polygon, Segment, VertexName, merge};
+use super::{Complex, EdgeName, FacetName, PlcError, Polygon, VertexName, merge};
+use crate::exchange::{Plc, Segment};
 use crate::mesh::VertexId;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;

@@ -10,7 +10,7 @@ pub struct Complex {
     /// `representative[v]` is the first vertex with the coordinates of v; v itself unless v is a duplicate.
     pub representative: Vec<VertexId>,
     /// Every segment once, with its marker (the first non-zero one given), in order of first appearance.
-    pub segments: Vec<super::Segment>,
+    pub segments: Vec<crate::exchange::Segment>,
     /// How many of the segments, the last ones, are no segments of the input but diagonals of polygons that are flat only
     /// to rounding ([`Complex::triangulate_not_flat`]).
     pub diagonals: usize,
@@ -35,5 +35,5 @@ pub struct Polygon {
     /// The input facets that f consists of, by index in [`super::Plc::facets`].
     pub facets: Vec<usize>,
     /// The marker of those facets, which is the same for all of them.
-    pub marker: i32,
+    pub marker: i64,
 }

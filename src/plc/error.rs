@@ -1,6 +1,6 @@
 //! What can be wrong with a PLC, in the numbering of the user's file.
 
-use super::Plc;
+use crate::exchange::Plc;
 use crate::mesh::VertexId;
 use std::fmt;
 

@@ -12,7 +12,8 @@
 use super::facet::{sorted, undirected};
 use super::frame;
 use super::plane::{Projected, Projection, orient3d};
-use super::{EdgeName, FacetName, Plc, PlcError, Polygon};
+use super::{EdgeName, FacetName, PlcError, Polygon};
+use crate::exchange::Plc;
 use crate::mesh::{Groups, VertexId};
 use rustc_hash::FxHashSet;
 

@@ -10,11 +10,9 @@ mod merge;
 mod plane;
 mod subdivision;
 mod triangulate;
-mod types;
 
 pub(crate) use build::representatives;
 pub use complex::{Complex, Polygon};
 pub use error::{EdgeName, FacetName, PlcError, VertexName};
 pub(crate) use facet::{FacetInput, undirected};
 pub(crate) use plane::{Projected, Projection, in_box, on_segment, orient2d, orient3d};
-pub use types::{Facet, Plc, Region, Segment};

@@ -9,7 +9,8 @@
 
 use super::facet::undirected;
 use super::plane::{Projected, Projection};
-use super::{Complex, FacetName, Plc, PlcError, Polygon, Segment};
+use super::{Complex, FacetName, PlcError, Polygon};
+use crate::exchange::{Plc, Segment};
 use crate::mesh::VertexId;
 use crate::number::Sign;
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -4,8 +4,8 @@
 //! hole point are holes; the rest is the domain. A region point gives its attribute to its component.
 
 use crate::error::InvalidPlc;
+use crate::exchange::Plc;
 use crate::mesh::{Incidence, SimplexIndex, TetId, TetMesh};
-use crate::plc::Plc;
 use crate::predicate::PointStore;
 use crate::threads;
 

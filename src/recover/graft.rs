@@ -99,8 +99,9 @@ mod tests {
     use super::super::segments::{SegmentIndex, Subsegments, recover_segments};
     use super::*;
     use crate::delaunay::delaunay;
+    use crate::exchange::{Facet, Plc};
     use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
-    use crate::plc::{Complex, Facet, Plc};
+    use crate::plc::Complex;
     use crate::predicate::DoublePoints;
 
     /// A mesh with all segments of a PLC.

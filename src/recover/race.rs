@@ -125,8 +125,9 @@ fn is_too_short(failure: &Failure) -> bool {
 mod tests {
     use super::*;
     use crate::delaunay::delaunay;
+    use crate::exchange::Segment;
     use crate::mesh::Incidence;
-    use crate::plc::{Complex, Segment};
+    use crate::plc::Complex;
     use crate::predicate::DoublePoints;
     use crate::recover::segments::{SegmentIndex, Subsegments};
 

@@ -4,7 +4,7 @@
 //! are tried at the neighbouring doubles, and the place is taken that leaves the fewest tetrahedra around the vertex that
 //! are not positive, if those are fewer than before. The number of such tetrahedra falls with every move, so this ends. What
 //! remains is reported: it is positive with the exact positions, which are part of the output
-//! ([`ExactPosition`](crate::mesh::ExactPosition)).
+//! ([`ExactPosition`](crate::exchange::ExactPosition)).
 //!
 //! Linear time, apart from the vertices that are tried.
 

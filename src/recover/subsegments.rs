@@ -284,7 +284,7 @@ impl Subsegments {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plc::Segment;
+    use crate::exchange::Segment;
     use rustc_hash::FxHashMap;
 
     /// The subsegments after many divisions and joins are those that a list of each segment's vertices tells.

@@ -4,9 +4,10 @@
 use super::places::Places;
 use super::points::{Points, cross, dot, minus};
 use super::tables::sorted2;
-use crate::mesh::{ExportedMesh, VertexId};
+use crate::exchange::ExportedMesh;
+use crate::exchange::Plc;
+use crate::mesh::VertexId;
 use crate::number::{Dyadic, Vec3};
-use crate::plc::Plc;
 use crate::threads;
 use rustc_hash::FxHashMap;
 

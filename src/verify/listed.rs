@@ -5,7 +5,8 @@
 use super::surface::Surface;
 use super::tables::sorted2;
 use super::{Case, Findings, Violation};
-use crate::mesh::{ExportedMesh, VertexId};
+use crate::exchange::ExportedMesh;
+use crate::mesh::VertexId;
 use crate::threads;
 
 /// Fewer elements are one thread's work.

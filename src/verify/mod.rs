@@ -67,8 +67,9 @@ mod words;
 pub use verdict::{Counts, Place, Verdict};
 pub use violation::Violation;
 
-use crate::mesh::{ExportedMesh, VertexId};
-use crate::plc::Plc;
+use crate::exchange::ExportedMesh;
+use crate::exchange::Plc;
+use crate::mesh::VertexId;
 use input::Input;
 use locate::Locator;
 use points::Points;

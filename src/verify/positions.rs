@@ -4,7 +4,8 @@
 //! is checked here is that they are what the coordinates say, up to rounding, so that a mesh cannot claim to be elsewhere.
 
 use super::{Findings, Place, Violation, ulp};
-use crate::mesh::{ExactPosition, ExportedMesh, VertexId};
+use crate::exchange::{ExactPosition, ExportedMesh};
+use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Number, Vec3};
 use crate::predicate::Parameter;
 use rustc_hash::FxHashMap;

@@ -2,8 +2,9 @@
 //! fails.
 
 use super::{Findings, MOST_TETS, Place, Violation};
-use crate::mesh::{ExportedMesh, VertexId};
-use crate::plc::Plc;
+use crate::exchange::ExportedMesh;
+use crate::exchange::Plc;
+use crate::mesh::VertexId;
 
 /// Sides of faces are numbered in 32 bits.
 fn check_size(tets: usize, findings: &mut Findings) {

@@ -238,8 +238,8 @@ impl<'a> Flood<'a> {
 mod tests {
     use super::super::tests::with_case;
     use super::*;
-    use crate::mesh::ExportedMesh;
-    use crate::plc::{Plc, Segment};
+    use crate::exchange::ExportedMesh;
+    use crate::exchange::{Plc, Segment};
 
     /// The cube with vertex x + 2y + 4z in six tetrahedra around its diagonal.
     fn cube() -> (Plc, ExportedMesh) {

@@ -116,7 +116,7 @@ pub enum Violation {
         /// The two.
         tets: [usize; 2],
     },
-    /// An element of [`crate::mesh::ExportedMesh::faces`] or `edges` is no face or edge of any tetrahedron.
+    /// An element of [`crate::exchange::ExportedMesh::faces`] or `edges` is no face or edge of any tetrahedron.
     #[error("the listed {element} {index} is not in the mesh")]
     ListedNotInMesh {
         /// "face" or "edge".

@@ -103,8 +103,8 @@ impl<'a> Boundary<'a> {
 mod tests {
     use super::super::tests::with_case;
     use super::*;
-    use crate::mesh::ExportedMesh;
-    use crate::plc::Plc;
+    use crate::exchange::ExportedMesh;
+    use crate::exchange::Plc;
 
     /// A tetrahedron in another one, one of them twice, apart and shifted.
     #[test]

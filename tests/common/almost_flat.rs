@@ -2,8 +2,8 @@
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use tetflip::exchange::{Facet, Plc, Segment};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc, Segment};
 
 /// A random rotation, as the columns of its matrix, and a random translation: rounding spoils every plane.
 pub struct Placement {

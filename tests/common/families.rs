@@ -2,8 +2,8 @@
 
 use super::{box_facets, plc_of_points};
 use proptest::prelude::*;
+use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc};
 
 /// Lattice points and one rectangle with corners on the lattice, in an axis plane or a tilted one.
 pub fn lattice_with_rectangle() -> impl Strategy<Value = Plc> {

@@ -5,8 +5,8 @@ pub mod almost_flat;
 pub mod families;
 
 use tetflip::delaunay::{Delaunay, delaunay};
+use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::{TetMesh, VertexId};
-use tetflip::plc::{Facet, Plc};
 use tetflip::predicate::{DoublePoints, PointStore};
 
 /// All vertex ids of a store.

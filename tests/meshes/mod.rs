@@ -2,8 +2,9 @@
 
 #![allow(missing_docs, dead_code)]
 
-use tetflip::mesh::{ExportedMesh, VertexId};
-use tetflip::plc::{Facet, Plc};
+use tetflip::exchange::ExportedMesh;
+use tetflip::exchange::{Facet, Plc};
+use tetflip::mesh::VertexId;
 use tetflip::verify::{Domain, Verdict, VerifyOptions, verify};
 
 pub fn ids<const N: usize>(v: [u32; N]) -> [VertexId; N] {

@@ -4,8 +4,8 @@
 use crate::input::{ROOMS, stl};
 use crate::place::Place;
 use tetflip::cdt::{Options, tetrahedralize};
+use tetflip::exchange::ExportedMesh;
 use tetflip::format::{read_plc, write_mesh};
-use tetflip::mesh::ExportedMesh;
 use tetflip::report::Report;
 
 /// A column of four stars whose points stand above the notches of the next one. (At every height, the section is

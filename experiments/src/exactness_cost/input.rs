@@ -16,8 +16,8 @@
 
 use crate::family::Draw;
 use crate::scene::Slab;
+use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc};
 
 /// One input.
 #[derive(Clone, Copy, Debug, PartialEq)]

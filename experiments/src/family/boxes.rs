@@ -5,7 +5,7 @@
 //! - `boxes`: the same with planes at unequal distances, decimal fractions that are rounded to doubles.
 
 use super::{Draw, Family, facet};
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

@@ -8,7 +8,7 @@
 use super::{Draw, Family, one_polygon};
 use crate::family::lattice::tilted_axes;
 use crate::scene::Slab;
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

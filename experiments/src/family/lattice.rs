@@ -9,7 +9,7 @@
 //!   axis (what of it is below half an ulp is lost): ties become near ties, and then none.
 
 use super::{Draw, Family, doubles, one_polygon};
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

@@ -20,8 +20,8 @@ pub use draw::Draw;
 use std::fmt;
 use std::str::FromStr;
 use tetflip::cdt::Cdt;
+use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc};
 use tetflip::report::Report;
 use thiserror::Error;
 

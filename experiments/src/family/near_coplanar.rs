@@ -7,7 +7,7 @@
 //! - `lattice`: as `ulps`, with x and y on a lattice: ties besides.
 
 use super::{Draw, Family, one_polygon};
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

@@ -6,7 +6,7 @@
 //! - `needle`: vertices in two or three tiny clusters far apart.
 
 use super::{Draw, Family, one_polygon};
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

@@ -6,7 +6,7 @@
 //! - `parallel`: rectangles one above the other, with lattice points between them.
 
 use super::{Draw, Family, doubles, facet};
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

@@ -17,7 +17,7 @@
 //!   the quotient.
 
 use super::{Draw, Family, facet, one_polygon};
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

@@ -8,7 +8,7 @@
 //! - `rounded`: random points of the unit sphere, rounded: cospherical but for an ulp or so.
 
 use super::{Draw, Family, doubles, one_polygon};
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

@@ -4,8 +4,8 @@
 //! - `standing`: walls that stand on the floor; their lower edges are segments inside it.
 
 use super::{Draw, Family, doubles, facet};
+use tetflip::exchange::Plc;
 use tetflip::mesh::VertexId;
-use tetflip::plc::Plc;
 
 /// The family.
 pub const FAMILY: Family = Family {

@@ -10,8 +10,8 @@ use crate::scene::Slab;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Duration;
+use tetflip::exchange::Plc;
 use tetflip::format::{read_mesh, write_poly};
-use tetflip::plc::Plc;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
 /// What tables call the modes, and TetGen's switches for them.

@@ -1,6 +1,6 @@
 //! Where a model is seen from: above and beside, in parallel projection, as large as the picture allows.
 
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 
 /// The directions of the picture's axes, right, up and towards the eye: orthogonal, of length 1.
 const AXES: [[f64; 3]; 3] = [

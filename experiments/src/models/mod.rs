@@ -19,8 +19,8 @@ use camera::Camera;
 use image::Image;
 use std::error::Error;
 use tetflip::check::check;
+use tetflip::exchange::Plc;
 use tetflip::generate::{Kind, generate};
-use tetflip::plc::Plc;
 
 /// The question and its cost.
 pub const EXPERIMENT: Experiment = Experiment {

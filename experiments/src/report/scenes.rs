@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use tetflip::cdt::Cdt;
 use tetflip::mesh::VertexId;
 
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 use tetflip::predicate::PointStore;
 use tetflip::recover::flips::{Fate, FlipKind};
 use tetflip::recover::polygons::Times;

@@ -6,9 +6,9 @@ use crate::scene::Slab;
 use std::collections::HashSet;
 use std::error::Error;
 use std::path::{Path, PathBuf};
+use tetflip::exchange::Plc;
 use tetflip::format::{read_plc, write_poly};
 use tetflip::generate::{Kind as Made, generate};
-use tetflip::plc::Plc;
 
 /// What an input is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

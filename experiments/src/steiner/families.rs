@@ -2,8 +2,8 @@
 //! operations only, so that they are the same bits everywhere.
 
 use crate::family::draw::Draw;
+use tetflip::exchange::{Facet, Plc, Segment};
 use tetflip::mesh::VertexId;
-use tetflip::plc::{Facet, Plc, Segment};
 
 /// A named PLC.
 pub struct Model {

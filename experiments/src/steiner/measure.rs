@@ -8,8 +8,8 @@ use crate::steiner::row::Row;
 use std::time::Duration;
 use tetflip::cdt::{Cdt, Options};
 use tetflip::error::Failure;
-use tetflip::mesh::ExportedMesh;
-use tetflip::plc::Plc;
+use tetflip::exchange::ExportedMesh;
+use tetflip::exchange::Plc;
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 

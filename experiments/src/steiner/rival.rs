@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
+use tetflip::exchange::Plc;
 use tetflip::format::{read_plc, write_poly};
-use tetflip::plc::Plc;
 
 /// A program and what tables call it.
 #[derive(Clone, Debug, PartialEq, Eq)]

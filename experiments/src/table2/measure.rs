@@ -6,7 +6,7 @@ use crate::sample::{median, rounded};
 use tetflip::cdt::{Cdt, Options};
 use tetflip::clock::Task;
 use tetflip::error::Failure;
-use tetflip::plc::Plc;
+use tetflip::exchange::Plc;
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
 

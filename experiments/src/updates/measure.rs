@@ -8,8 +8,8 @@ use crate::suite::Model;
 use std::time::Instant;
 use tetflip::cdt::{Cdt, Options};
 use tetflip::error::Failure;
+use tetflip::exchange::Plc;
 use tetflip::mesh::{TetMesh, VertexId};
-use tetflip::plc::Plc;
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
 

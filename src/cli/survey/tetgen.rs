@@ -8,9 +8,9 @@ use std::fs::File;
 use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
+use tetflip::exchange::ExportedMesh;
+use tetflip::exchange::Plc;
 use tetflip::format::{read_mesh, write_poly};
-use tetflip::mesh::ExportedMesh;
-use tetflip::plc::Plc;
 
 /// How it is called.
 pub(super) struct Tetgen<'a> {

@@ -254,8 +254,8 @@ fn by_side<P: PointStore>(
 #[cfg(test)]
 mod tests {
     use crate::cdt::{Cdt, Options};
+    use crate::exchange::{Facet, Plc};
     use crate::mesh::{TetMesh, VertexId};
-    use crate::plc::{Facet, Plc};
     use crate::recover::flips::Watch;
     use crate::recover::polygons::{Insertion, PolygonCounts, Times};
     use crate::report::Report;

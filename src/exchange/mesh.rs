@@ -1,7 +1,8 @@
 //! A tetrahedral mesh as files hold it: plain arrays, no adjacency. Written by [`crate::format`], read back by it,
 //! and checked by [`crate::verify`], whoever made it.
 
-use super::VertexId;
+use super::Attributes;
+use crate::mesh::VertexId;
 use crate::predicate::Parameter;
 
 /// A finished mesh: what `.node/.ele/.face/.edge` files contain.
@@ -11,6 +12,10 @@ pub struct ExportedMesh {
     pub first_index: u32,
     /// Coordinates. The vertices of the input come first, in the order of the input, then Steiner points.
     pub vertices: Vec<[f64; 3]>,
+    /// The attributes of all vertices.
+    pub attributes: Attributes,
+    /// The markers of all vertices, 0 for none; empty if no vertex has one.
+    pub vertex_markers: Vec<i64>,
     /// The vertices that are exactly elsewhere: their coordinates are rounded.
     pub exact: Vec<ExactPosition>,
     /// Positively oriented tetrahedra: det[b−a, c−a, d−a] > 0, for the exact positions.
@@ -40,7 +45,7 @@ pub struct ExportedFace {
     /// The three vertices.
     pub vertices: [VertexId; 3],
     /// The marker of the input facet; 0 for an unmarked facet and for a hull face that is on no facet.
-    pub marker: i32,
+    pub marker: i64,
 }
 
 /// An edge on an input segment.
@@ -49,5 +54,5 @@ pub struct ExportedEdge {
     /// The two vertices.
     pub vertices: [VertexId; 2],
     /// The marker of the input segment, 0 if it has none.
-    pub marker: i32,
+    pub marker: i64,
 }

@@ -5,10 +5,16 @@ use crate::mesh::VertexId;
 /// A piecewise linear complex as it was given, before any check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plc {
-    /// The index of the first vertex in the file, 0 or 1; ids in this struct always count from 0.
+    /// The number of the first vertex in the file, in most formats 0 or 1; ids in this struct always count from 0.
     pub first_index: u32,
+    /// The numbers of the vertices in the file, if they are not successive from [`Plc::first_index`] on; otherwise empty.
+    pub numbers: Vec<i64>,
     /// Finite coordinates.
     pub vertices: Vec<[f64; 3]>,
+    /// The attributes of the vertices.
+    pub attributes: Attributes,
+    /// The markers of the vertices, 0 for none; empty if no vertex has one.
+    pub vertex_markers: Vec<i64>,
     /// The facets.
     pub facets: Vec<Facet>,
     /// Segments that belong to no facet (`.edge` files, two-vertex facets).
@@ -17,6 +23,24 @@ pub struct Plc {
     pub holes: Vec<[f64; 3]>,
     /// Points that name regions.
     pub regions: Vec<Region>,
+    /// What the file calls the facets with a marker (solids of STL, groups of OBJ), in the order of the file.
+    pub marker_names: Vec<(i64, String)>,
+}
+
+/// A row of as many numbers for each vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attributes {
+    /// How many numbers a vertex has.
+    pub per_vertex: usize,
+    /// The rows, one after the other.
+    pub values: Vec<f64>,
+}
+
+impl Attributes {
+    /// The attributes of vertex `v`.
+    pub fn of(&self, v: VertexId) -> &[f64] {
+        &self.values[v.index() * self.per_vertex..][..self.per_vertex]
+    }
 }
 
 /// A planar facet: the area bounded by its polygons, without the parts that hold a hole point.
@@ -27,7 +51,7 @@ pub struct Facet {
     /// A point in every part of the facet that is to be left open.
     pub holes: Vec<[f64; 3]>,
     /// Boundary marker, 0 if none.
-    pub marker: i32,
+    pub marker: i64,
 }
 
 /// A segment given for itself.
@@ -36,7 +60,7 @@ pub struct Segment {
     /// The two ends.
     pub ends: [VertexId; 2],
     /// Boundary marker, 0 if none.
-    pub marker: i32,
+    pub marker: i64,
 }
 
 /// A point that gives its attribute to the region it lies in.

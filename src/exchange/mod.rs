@@ -1,0 +1,10 @@
+//! What files, the verifier and other languages see: a PLC as it was given, a mesh as it is written, and notes.
+
+mod hull;
+mod mesh;
+mod note;
+mod plc;
+
+pub use mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
+pub use note::{Note, NoteCode};
+pub use plc::{Attributes, Facet, Plc, Region, Segment};

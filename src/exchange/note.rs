@@ -1,0 +1,132 @@
+//! Notes: what was forgiven, repaired, assumed, dropped or ignored, without being an error.
+
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// The kind of a note: a stable word, which scripts may rely on. This is the one table of them.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[non_exhaustive]
+pub enum NoteCode {
+    /// Rounded Steiner points have no solution, so they are exact (`exact-steiner`).
+    ExactSteiner,
+    /// Tetrahedra that are positive with exact Steiner points only, not with their rounded coordinates
+    /// (`spoilt-by-rounding`).
+    SpoiltByRounding,
+    /// The convex hull is kept because the facets enclose nothing (`hull-instead`).
+    HullInstead,
+}
+
+impl NoteCode {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            NoteCode::ExactSteiner => "exact-steiner",
+            NoteCode::SpoiltByRounding => "spoilt-by-rounding",
+            NoteCode::HullInstead => "hull-instead",
+        }
+    }
+}
+
+impl fmt::Display for NoteCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.word())
+    }
+}
+
+impl Serialize for NoteCode {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
+    }
+}
+
+/// One note. It displays as `note[code]: text`.
+///
+/// What it is about has the numbers that the input gives it, at most [`Note::LISTED`] of each kind; `count` tells how
+/// many there are.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Note {
+    /// Which kind of note.
+    pub code: NoteCode,
+    /// A sentence or two for people, without a full stop at the end.
+    pub text: String,
+    /// How many things it is about.
+    pub count: usize,
+    /// Lines of the file, from 1.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lines: Vec<usize>,
+    /// Facets.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub facets: Vec<i64>,
+    /// Vertices.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub vertices: Vec<i64>,
+    /// Hole points and region points by their numbers in their lists, or places that no vertex has.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<[f64; 3]>,
+}
+
+impl Note {
+    /// How many things of one kind a note lists at most.
+    pub const LISTED: usize = 20;
+
+    /// A note about `count` things, none of them listed.
+    pub fn new(code: NoteCode, count: usize, text: impl Into<String>) -> Note {
+        Note {
+            code,
+            text: text.into(),
+            count,
+            lines: Vec::new(),
+            facets: Vec::new(),
+            vertices: Vec::new(),
+            points: Vec::new(),
+        }
+    }
+
+    /// The note with lines of the file, the first [`Note::LISTED`] of them.
+    pub fn at_lines(mut self, lines: impl IntoIterator<Item = usize>) -> Note {
+        self.lines = lines.into_iter().take(Note::LISTED).collect();
+        self
+    }
+
+    /// The note with facets, the first [`Note::LISTED`] of them.
+    pub fn on_facets(mut self, facets: impl IntoIterator<Item = i64>) -> Note {
+        self.facets = facets.into_iter().take(Note::LISTED).collect();
+        self
+    }
+
+    /// The note with vertices, the first [`Note::LISTED`] of them.
+    pub fn on_vertices(mut self, vertices: impl IntoIterator<Item = i64>) -> Note {
+        self.vertices = vertices.into_iter().take(Note::LISTED).collect();
+        self
+    }
+
+    /// The note with points, the first [`Note::LISTED`] of them.
+    pub fn at_points(mut self, points: impl IntoIterator<Item = [f64; 3]>) -> Note {
+        self.points = points.into_iter().take(Note::LISTED).collect();
+        self
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "note[{}]: {}", self.code, self.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_note_displays_with_its_code() {
+        let note = Note::new(NoteCode::HullInstead, 1, "the hull is kept").on_facets([3]);
+        assert_eq!(note.to_string(), "note[hull-instead]: the hull is kept");
+        assert_eq!(note.facets, [3]);
+    }
+
+    #[test]
+    fn lists_are_cut_but_counts_are_not() {
+        let note = Note::new(NoteCode::ExactSteiner, 100, "").at_lines(1..=100);
+        assert_eq!((note.lines.len(), note.count), (Note::LISTED, 100));
+    }
+}
