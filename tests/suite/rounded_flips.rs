@@ -4,9 +4,7 @@
 //!
 //! `PROPTEST_CASES=20000 cargo test --release --test rounded_flips` looks harder.
 
-mod common;
-
-use common::{plc_of_points, quiet, sorted_tets};
+use crate::common::{plc_of_points, quiet, sorted_tets};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use tetflip::cdt::Cdt;

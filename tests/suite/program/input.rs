@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 /// Two rooms with a wall between them and a block left out; the example of the README.
-pub const ROOMS: &str = include_str!("../../examples/rooms.poly");
+pub const ROOMS: &str = include_str!("../../../examples/rooms.poly");
 
 pub type Point = [f64; 3];
 

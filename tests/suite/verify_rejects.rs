@@ -1,9 +1,7 @@
 //! The verifier accepts right meshes and names what is wrong with wrong ones: each kind of violation, from a small mesh
 //! that has it.
 
-mod meshes;
-
-use meshes::*;
+use crate::meshes::*;
 use tetflip::exchange::{ExportedEdge, ExportedFace, ExportedMesh};
 use tetflip::exchange::{Region, Segment};
 use tetflip::mesh::VertexId;

@@ -1,8 +1,8 @@
 //! The same input gives the same bytes: in every process (the seeds of hash tables differ), for every format that is
 //! written, and with several runs at once in one process.
 
-use crate::input::{ROOMS, stl};
-use crate::place::Place;
+use crate::program::input::{ROOMS, stl};
+use crate::program::place::Place;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::exchange::ExportedMesh;
 use tetflip::format::{read_plc, write_mesh};

@@ -1,8 +1,6 @@
 //! From a PLC to a complex: what is refused, on which side of its edges a facet lies.
 
-mod fixtures;
-
-use fixtures::{check_frame, facet, ids, nested, square, tilted, walks};
+use crate::fixtures::{check_frame, facet, ids, nested, square, tilted, walks};
 use proptest::prelude::*;
 use tetflip::exchange::{Facet, Plc, Segment};
 use tetflip::mesh::VertexId;

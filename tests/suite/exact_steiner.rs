@@ -1,10 +1,8 @@
 //! Exact Steiner points: every polygon stays flat, every algorithm ends in the same tetrahedra, the verifier accepts them
 //! without any tolerance, and output says where the points are and what rounding spoils.
 
-mod common;
-
-use common::families::{crossing_planes, fins, lattice_with_rectangle, sphere, walls};
-use common::quiet;
+use crate::common::families::{crossing_planes, fins, lattice_with_rectangle, sphere, walls};
+use crate::common::quiet;
 use proptest::prelude::*;
 use tetflip::cdt::{Cdt, Options, tetrahedralize};
 use tetflip::error::Failure;
@@ -175,7 +173,7 @@ fn close_to_edges() -> Plc {
         [0.9, 3.1, 0.2],
         [1.1, 1.3, 2.9],
     ];
-    let mut plc = common::plc_of_points(corners.to_vec());
+    let mut plc = crate::common::plc_of_points(corners.to_vec());
     for (i, j) in [(0, 1), (1, 2), (2, 3), (0, 3)] {
         let near = |k: usize| {
             let middle = 0.48 * corners[i][k] + 0.52 * corners[j][k];
@@ -185,7 +183,7 @@ fn close_to_edges() -> Plc {
         plc.vertices.push([near(0), near(1), near(2)]);
     }
     plc.facets = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]
-        .map(|f| common::families::facet(&f))
+        .map(|f| crate::common::families::facet(&f))
         .to_vec();
     plc
 }
@@ -193,8 +191,8 @@ fn close_to_edges() -> Plc {
 /// Two boxes, turned: their squares are not flat.
 #[test]
 fn polygons_flat_only_to_rounding_are_divided() {
-    let mut plc = common::plc_of_points(Vec::new());
-    common::box_facets(&mut plc, [2, 1, 1], 3.0, &[true]);
+    let mut plc = crate::common::plc_of_points(Vec::new());
+    crate::common::box_facets(&mut plc, [2, 1, 1], 3.0, &[true]);
     plc.vertices.extend([[2.9, 1.4, 1.5], [3.1, 1.6, 1.5]]);
     let (mesh, report) = agree(&turned(plc.clone(), [0.3, 0.7])).expect("a valid PLC");
     assert!(report.triangulated_polygons > 0);

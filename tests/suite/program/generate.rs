@@ -1,6 +1,6 @@
 //! `tetflip generate`: models that `check` and `mesh` accept, the same ones every time.
 
-use crate::place::Place;
+use crate::program::place::Place;
 
 #[test]
 fn a_generated_model_is_checked_meshed_and_verified() {

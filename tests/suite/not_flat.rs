@@ -3,10 +3,8 @@
 //!
 //! `NOT_FLAT_CASES=2000 cargo test --release --test not_flat -- --nocapture` looks harder, and prints counts.
 
-mod common;
-
-use common::almost_flat::FAMILIES;
-use common::quiet;
+use crate::common::almost_flat::FAMILIES;
+use crate::common::quiet;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::error::{Failure, GaveUp};
 use tetflip::exchange::{Facet, Plc};

@@ -4,9 +4,7 @@
 //!
 //! `PROPTEST_CASES=20000 cargo test --release --test fuzz_pipeline` looks harder.
 
-mod common;
-
-use common::{plc_of_points, quiet};
+use crate::common::{plc_of_points, quiet};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::sync::mpsc;

@@ -1,7 +1,7 @@
 //! The README says what the program does.
 
-use crate::input::{FLAT, ROOMS, off};
-use crate::place::Place;
+use crate::program::input::{FLAT, ROOMS, off};
+use crate::program::place::Place;
 
 /// The fields of an object, and those of the objects in it after its name and a dot.
 fn fields(value: &serde_json::Value, prefix: &str, names: &mut Vec<String>) {
@@ -35,7 +35,7 @@ fn the_report_has_the_documented_fields() {
     );
     let mut names = Vec::new();
     fields(&report, "", &mut names);
-    let readme = include_str!("../../README.md");
+    let readme = include_str!("../../../README.md");
     let documented: Vec<&str> = readme
         .lines()
         .skip_while(|line| *line != "| field of the report | meaning |")
@@ -65,7 +65,7 @@ fn the_readme_shows_what_the_program_prints() {
     std::fs::create_dir(place.path("examples")).expect("a directory");
     std::fs::write(place.path("examples/rooms.poly"), ROOMS).expect("a file");
     let mut commands = 0;
-    let blocks = include_str!("../../README.md")
+    let blocks = include_str!("../../../README.md")
         .split("```console\n")
         .skip(1);
     for block in blocks.map(|b| b.split("```").next().expect("a block")) {

@@ -7,6 +7,7 @@ mod files;
 mod generate;
 mod input;
 mod place;
+mod recorded;
 mod refusals;
 
 use input::{CUBE, FLAT, ROOMS, off, poly, stl};

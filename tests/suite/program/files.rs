@@ -1,8 +1,8 @@
 //! Files: names in capitals, other formats, and what is left where a run fails or an earlier one did.
 
-use crate::input::{BOX_FACES, CUBE, box_corners, poly};
-use crate::place::Place;
-use crate::refusals::PRISM;
+use crate::program::input::{BOX_FACES, CUBE, box_corners, poly};
+use crate::program::place::Place;
+use crate::program::refusals::PRISM;
 use std::fmt::Write;
 
 /// The cube of [`poly`] as vertices and faces, with the given words before each, and its numbers counted from `first`.

@@ -1,8 +1,6 @@
 //! Tetrahedra apart from the others where the convex hull is kept: in a cavity they may be, elsewhere not.
 
-mod meshes;
-
-use meshes::*;
+use crate::meshes::*;
 use tetflip::delaunay::delaunay;
 use tetflip::exchange::ExportedMesh;
 use tetflip::mesh::VertexId;

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 type Row = BTreeMap<String, String>;
 
 /// Two rooms with a wall between them and a block left out.
-const ROOMS: &str = include_str!("../examples/rooms.poly");
+const ROOMS: &str = include_str!("../../examples/rooms.poly");
 
 /// Boxes as an OFF file.
 fn boxes(list: &[[[f64; 3]; 2]]) -> String {

@@ -1,8 +1,6 @@
 //! The Delaunay tetrahedralization is canonical, complete and Delaunay, on the families that break floats.
 
-mod common;
-
-use common::{all_vertices, sorted_tets};
+use crate::common::{all_vertices, sorted_tets};
 use proptest::prelude::*;
 use tetflip::delaunay::{DelaunayError, delaunay, delaunay_by};
 use tetflip::mesh::{TetMesh, VertexId};
@@ -85,14 +83,14 @@ proptest! {
         let all = all_vertices(&points);
         let Ok(first) = delaunay(&points, &all) else { return Ok(()) };
         assert_delaunay(&points, &first.mesh);
-        prop_assert_eq!(common::used_vertices(&first.mesh), all.clone());
+        prop_assert_eq!(crate::common::used_vertices(&first.mesh), all.clone());
         // The same vertices inserted one by one in another order, from another first tetrahedron.
         let mut order = all;
         let n = order.len();
         for (i, j) in swaps {
             order.swap(i % n, j % n);
         }
-        let second = common::delaunay_in_order(&points, &order);
+        let second = crate::common::delaunay_in_order(&points, &order);
         prop_assert_eq!(sorted_tets(&first.mesh), sorted_tets(&second.mesh));
     }
 }

@@ -1,8 +1,6 @@
 //! The check of the input: every kind of conflict by a small example, and agreement with all pairs tested in rationals.
 
-mod common;
-
-use common::plc_of_points;
+use crate::common::plc_of_points;
 use num_rational::Ratio;
 use num_traits::Zero;
 use proptest::prelude::*;

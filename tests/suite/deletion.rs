@@ -1,10 +1,10 @@
 //! Deleting a polygon undoes its insertion, whatever else is there; what cannot be deleted is refused, and nothing has
 //! changed.
 
-mod common;
-
-use common::families::{crossing_planes, facet, fins, lattice_with_rectangle, sphere, walls};
-use common::{box_facets, plc_of_points, quiet, sorted_tets};
+use crate::common::families::{
+    crossing_planes, facet, fins, lattice_with_rectangle, sphere, walls,
+};
+use crate::common::{box_facets, plc_of_points, quiet, sorted_tets};
 use proptest::prelude::*;
 use tetflip::cdt::Cdt;
 use tetflip::error::{DeletionRefused, Failure};

@@ -1,10 +1,10 @@
 //! Cavity insertion, gift wrapping, exact flips in every number type, and every order of insertion end in the same tetrahedra, and the
 //! exact verifier accepts them.
 
-mod common;
-
-use common::families::{crossing_planes, facet, fins, lattice_with_rectangle, sphere, walls};
-use common::{plc_of_points, quiet};
+use crate::common::families::{
+    crossing_planes, facet, fins, lattice_with_rectangle, sphere, walls,
+};
+use crate::common::{plc_of_points, quiet};
 use proptest::prelude::*;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::error::{Failure, GaveUp};

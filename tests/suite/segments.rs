@@ -1,8 +1,6 @@
 //! Segment recovery ends on small angles, and every segment is then a chain of edges of a Delaunay tetrahedralization.
 
-mod common;
-
-use common::{plc_of_points, quiet};
+use crate::common::{plc_of_points, quiet};
 use proptest::prelude::*;
 use tetflip::cdt::{Cdt, Options, tetrahedralize};
 use tetflip::error::{Failure, InvalidPlc};

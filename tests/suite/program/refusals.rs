@@ -1,7 +1,7 @@
 //! What the program refuses, with which exit status and message; nothing is written then.
 
-use crate::input::{CUBE, FLAT, Point, ROOMS, off, poly, stl};
-use crate::place::Place;
+use crate::program::input::{CUBE, FLAT, Point, ROOMS, off, poly, stl};
+use crate::program::place::Place;
 use std::fmt::Write;
 use std::process::Command;
 

@@ -1,8 +1,6 @@
 //! Merging coplanar facets: what is merged, what prevents it, and what remains.
 
-mod fixtures;
-
-use fixtures::{check_frame, edges, facet, nested, square, tilted, walks};
+use crate::fixtures::{check_frame, edges, facet, nested, square, tilted, walks};
 use proptest::prelude::*;
 use tetflip::exchange::{Plc, Segment};
 use tetflip::mesh::VertexId;

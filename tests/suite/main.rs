@@ -1,0 +1,30 @@
+//! All integration tests, as one program: linking one takes a few seconds, linking one a file took most of the time.
+
+mod agreement;
+mod check;
+mod common;
+mod complex;
+mod delaunay;
+mod deletion;
+mod exact_steiner;
+mod fixtures;
+mod format;
+mod fuzz_formats;
+mod fuzz_pipeline;
+mod generate;
+mod merging;
+mod mesh_files;
+mod meshes;
+mod not_flat;
+mod number_agreement;
+#[cfg(feature = "cli")]
+mod program;
+mod rounded_flips;
+mod segments;
+mod surface_formats;
+#[cfg(feature = "cli")]
+mod survey;
+mod verify_islands;
+mod verify_rejects;
+mod verify_threads;
+mod wide_floats;
