@@ -28,7 +28,7 @@ pub enum Failure {
 
 impl Failure {
     /// The region of the polygon that flips have failed to insert, as a PLC in which they can be tried again
-    /// ([`region_as_plc`](crate::recover::dump::region_as_plc)).
+    /// ([`region_as_plc`](crate::recover::region::region_as_plc)).
     pub fn region(&self) -> Option<&Plc> {
         match self {
             Failure::GaveUp(

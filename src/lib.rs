@@ -47,4 +47,5 @@ pub mod predicate;
 pub mod recover;
 pub mod report;
 mod threads;
+pub mod update;
 pub mod verify;

@@ -13,7 +13,7 @@ use tetflip::recover::flips::{
     Signs, flip_of_triangle,
 };
 use tetflip::recover::region::Region;
-use tetflip::recover::side::{Side, Sides};
+use tetflip::recover::region::{Side, Sides};
 
 /// The mesh of a slab and the crossing triangles of its rectangle, which are all certified first.
 struct Scene {

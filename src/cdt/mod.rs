@@ -14,7 +14,6 @@ use crate::exchange::Plc;
 use crate::mesh::{Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, PlcError};
 use crate::predicate::{DoublePoints, PointStore, Steiner};
-use crate::recover::deletion::{DeletionCounts, PolygonDeletion};
 use crate::recover::flatten::{Pieces, flatten};
 use crate::recover::flips::Watch;
 use crate::recover::polygons::{
@@ -22,6 +21,7 @@ use crate::recover::polygons::{
 };
 use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 use crate::report::{Phase, Report};
+use crate::update::{DeletionCounts, PolygonDeletion};
 use std::sync::Arc;
 
 /// What the user chooses.

@@ -1,36 +1,26 @@
 //! From the Delaunay tetrahedralization of a PLC's vertices to its CDT: segments, then polygons, one missing region at
 //! a time, then inside and outside.
+//!
+//! Each module uses only those above it in this list:
+//!
+//! - [`tables`], [`method`], [`subpolygons`]: what the others share.
+//! - [`segments`]: Steiner points until every segment is a chain of edges.
+//! - [`flatten`]: polygons that are flat only to rounding, in exactly flat pieces.
+//! - [`region`]: which parts of a polygon are missing, and the tetrahedra that it cuts there.
+//! - [`retriangulate`]: new tetrahedra for a region, by cavities or by gift wrapping.
+//! - [`flips`]: new tetrahedra for a region, by flips.
+//! - [`polygons`]: all polygons, by any of these.
+//! - [`domain`]: which tetrahedra are inside.
+//! - [`output`]: what is checked and changed before the mesh is exported.
 
-pub mod cavity;
-mod crossings;
-pub mod deletion;
 pub mod domain;
-pub mod dump;
-pub mod embedding;
 pub mod flatten;
 pub mod flips;
-pub mod gift_wrap;
-mod graft;
-mod harmless;
-mod judge;
 pub mod method;
-pub mod missing;
-mod obstruction;
+pub mod output;
 pub mod polygons;
-mod prune;
-mod race;
-mod reach;
-mod recovery;
-mod refusal;
 pub mod region;
-pub mod rounding;
-pub mod scout;
-pub mod scratch;
-mod segment_index;
+pub mod retriangulate;
 pub mod segments;
-pub mod side;
-mod sight;
-pub mod split;
-pub mod subsegments;
-mod turn;
-pub mod walls;
+pub mod subpolygons;
+pub mod tables;

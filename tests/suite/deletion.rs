@@ -11,13 +11,13 @@ use tetflip::error::{DeletionRefused, Failure};
 use tetflip::exchange::{Plc, Segment};
 use tetflip::mesh::{TetMesh, VertexId};
 use tetflip::predicate::PointStore;
-use tetflip::recover::deletion::DeletionCounts;
 use tetflip::recover::flips::{
     Blocked, Deleted, FilteredTimes, FlipCounts, FlipDeletion, Kept, Motion,
 };
 use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
-use tetflip::recover::scratch::Table;
+use tetflip::recover::tables::Table;
 use tetflip::report::Report;
+use tetflip::update::DeletionCounts;
 use tetflip::verify::{Counts, Domain, VerifyOptions, verify};
 
 const FLIPS: Insertion = Insertion::Flip(Times::Filtered);

@@ -11,7 +11,7 @@ use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
 use tetflip::predicate::Steiner;
 use tetflip::recover::flatten::FlatteningCounts;
-use tetflip::recover::flatten::shims::ShimCounts;
+use tetflip::recover::flatten::ShimCounts;
 use tetflip::recover::polygons::{Insertion, Times};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};

@@ -18,26 +18,28 @@
 //! insertion of polygons as they are, which treats their vertices as if they were on one plane, and may refuse them.
 
 mod cells;
+mod counts;
 mod crossings;
 mod cut;
 mod figure;
 mod neighbours;
+mod pieces;
 mod plane;
-pub mod shims;
 mod steiner;
 
-use super::segments::{Request, SegmentIndex, Subsegments, add_steiner_points};
+pub use counts::{FlatteningCounts, ShimCounts};
+pub use pieces::Pieces;
+pub(crate) use plane::Plane;
+
 use crate::delaunay::Delaunay;
 use crate::mesh::{Groups, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
 use crate::predicate::PointStore;
+use crate::recover::segments::{Request, SegmentIndex, Subsegments, add_steiner_points};
 use cut::Cut;
 use figure::Figure;
 use neighbours::Neighbours;
 use rustc_hash::FxHashMap;
-use serde::Serialize;
-use shims::ShimCounts;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// How often Steiner points are inserted and polygons are cut again.
@@ -45,68 +47,6 @@ pub const MOST_ROUNDS: usize = 200;
 
 /// How many Steiner points may be inserted, besides a quarter of the number of vertices.
 pub const MOST_POINTS: usize = 1000;
-
-/// What it took to make all polygons exactly flat.
-#[derive(Clone, Copy, Default, PartialEq, Eq, Debug, Serialize)]
-pub struct FlatteningCounts {
-    /// Polygons with vertices that are not exactly on one plane.
-    pub not_flat: u64,
-    /// The exactly flat pieces into which those were cut.
-    pub pieces: u64,
-    /// Pairs of crossing edges, opposite edges of shims, of which one was chosen.
-    pub choices: u64,
-    /// Steiner points inserted in the interiors of polygons.
-    pub points_on_polygons: u64,
-    /// Steiner points inserted on segments instead.
-    pub points_on_segments: u64,
-    /// How often Steiner points were inserted.
-    pub rounds: usize,
-    /// Polygons left as they are, because too many Steiner points would have been necessary.
-    pub left_whole: u64,
-    /// Shims of the domain: repaired ([`shims`]), and left in the output.
-    pub shims: ShimCounts,
-}
-
-/// The polygons of a complex in exactly flat pieces.
-#[derive(Clone, Debug, Default)]
-pub struct Pieces {
-    /// The segments of the complex, and all pieces: polygons that were flat as they are, and the pieces of the others, whose
-    /// edges are edges of the mesh. The complex itself if nothing had to be cut.
-    pub complex: Arc<Complex>,
-    /// The first piece of each polygon, and the number of pieces at the end.
-    first: Vec<usize>,
-    /// Which polygons are not flat.
-    was_cut: Vec<bool>,
-    /// Steiner points inside each polygon.
-    inner: Vec<Vec<VertexId>>,
-}
-
-impl Pieces {
-    /// The pieces of polygon f.
-    pub fn of(&self, f: usize) -> Range<usize> {
-        self.first[f]..self.first[f + 1]
-    }
-
-    /// The first piece of each polygon, and the number of pieces.
-    pub(crate) fn clone_firsts(&self) -> Vec<usize> {
-        self.first.clone()
-    }
-
-    /// The polygon that piece `p` belongs to.
-    pub fn polygon_of(&self, p: usize) -> usize {
-        self.first.partition_point(|&first| first <= p) - 1
-    }
-
-    /// Whether polygon f had to be cut.
-    pub fn is_cut(&self, f: usize) -> bool {
-        self.was_cut[f]
-    }
-
-    /// Steiner points inside polygon f.
-    pub fn inner_points(&self, f: usize) -> &[VertexId] {
-        &self.inner[f]
-    }
-}
 
 /// What the polygons of a complex are made of at the moment.
 struct State<'a> {

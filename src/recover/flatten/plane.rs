@@ -10,7 +10,7 @@ use crate::predicate::coordinates::{dot2d, largest, normal_axis, orient2d};
 use std::cmp::Ordering;
 
 /// The projection of a polygon.
-pub(super) struct Plane<'a, P> {
+pub(crate) struct Plane<'a, P> {
     points: &'a P,
     /// The coordinates that are kept, in an order in which the frame turns counterclockwise.
     axes: [usize; 2],
@@ -18,7 +18,7 @@ pub(super) struct Plane<'a, P> {
 
 impl<'a, P: PointStore> Plane<'a, P> {
     /// The projection of a polygon whose frame is not collinear.
-    pub(super) fn new(points: &'a P, frame: [VertexId; 3]) -> Plane<'a, P> {
+    pub(crate) fn new(points: &'a P, frame: [VertexId; 3]) -> Plane<'a, P> {
         let of_doubles = match frame.map(|v| points.doubles(v)) {
             [Some(a), Some(b), Some(c)] => normal_axis([a, b, c]),
             _ => None,
@@ -55,7 +55,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
 
     /// Positive iff abc turns left.
     #[inline]
-    pub(super) fn turn(&self, a: VertexId, b: VertexId, c: VertexId) -> Sign {
+    pub(crate) fn turn(&self, a: VertexId, b: VertexId, c: VertexId) -> Sign {
         match (self.at(a), self.at(b), self.at(c)) {
             (Some(a), Some(b), Some(c)) => orient2d([a, b, c]),
             _ => self.turn_of_any(a, b, c),
@@ -74,7 +74,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     /// Whether b and c are in the same direction from a, rather than in opposite ones, for collinear points.
-    pub(super) fn ahead(&self, a: VertexId, b: VertexId, c: VertexId) -> bool {
+    pub(crate) fn ahead(&self, a: VertexId, b: VertexId, c: VertexId) -> bool {
         fn value<N: Number>([[px, py], [qx, qy]]: [[N; 2]; 2]) -> N {
             px * &qx + &(py * &qy)
         }
@@ -90,7 +90,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
 
     /// Of several points, the one whose direction from v is the last one counterclockwise from the direction to `first`, which
     /// is the least; the last of them if several directions are.
-    pub(super) fn last_around<T>(
+    pub(crate) fn last_around<T>(
         &self,
         v: VertexId,
         first: VertexId,
@@ -129,7 +129,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     /// Whether v is on the open segment pq.
-    pub(super) fn is_between(&self, p: VertexId, q: VertexId, v: VertexId) -> bool {
+    pub(crate) fn is_between(&self, p: VertexId, q: VertexId, v: VertexId) -> bool {
         if let (Some(p), Some(q), Some(v)) = (self.at(p), self.at(q), self.at(v))
             && (0..2).any(|k| v[k] < p[k].min(q[k]) || v[k] > p[k].max(q[k]))
         {
@@ -143,7 +143,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     /// Whether two segments cross: have one common inner point.
-    pub(super) fn cross(&self, [p, q]: [VertexId; 2], [s, t]: [VertexId; 2]) -> bool {
+    pub(crate) fn cross(&self, [p, q]: [VertexId; 2], [s, t]: [VertexId; 2]) -> bool {
         let share = p == s || p == t || q == s || q == t;
         !share
             && (self.turn(p, q, s) * self.turn(p, q, t)).is_negative()
@@ -151,7 +151,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     /// Where two segments cross: whether pq passes on the left side of st, above it.
-    pub(super) fn passes_above(&self, [p, q]: [VertexId; 2], [s, t]: [VertexId; 2]) -> bool {
+    pub(crate) fn passes_above(&self, [p, q]: [VertexId; 2], [s, t]: [VertexId; 2]) -> bool {
         let sign = self.points.orient3d([p, q, s, t]);
         // With s to the right of p→q, det[q−p, s−p, t−p] is positive if st is below.
         if self.turn(p, q, s).is_negative() {
@@ -162,7 +162,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     /// The sign of the area to the left of a closed walk.
-    pub(super) fn area(&self, walk: &[[VertexId; 2]]) -> Sign {
+    pub(crate) fn area(&self, walk: &[[VertexId; 2]]) -> Sign {
         fn value<N: Number, P: PointStore>(plane: &Plane<P>, walk: &[[VertexId; 2]]) -> N {
             let origin = walk[0][0];
             walk.iter().fold(N::from_f64(0.0), |sum, &[a, b]| {
@@ -178,7 +178,7 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     /// Whether v is inside a closed walk that does not pass through it.
-    pub(super) fn is_inside(&self, walk: &[[VertexId; 2]], v: VertexId) -> bool {
+    pub(crate) fn is_inside(&self, walk: &[[VertexId; 2]], v: VertexId) -> bool {
         let above = |w: VertexId| {
             let sign = self.decide(self.difference::<Approx>(v, w)[1], || {
                 self.difference::<Dyadic>(v, w)[1].clone()
@@ -194,12 +194,12 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     /// The projection of a point.
-    pub(super) fn project(&self, p: [f64; 3]) -> [f64; 2] {
+    pub(crate) fn project(&self, p: [f64; 3]) -> [f64; 2] {
         [p[self.axes[0]], p[self.axes[1]]]
     }
 
     /// Rounded coordinates in the projection.
-    pub(super) fn rounded(&self, v: VertexId) -> [f64; 2] {
+    pub(crate) fn rounded(&self, v: VertexId) -> [f64; 2] {
         self.project(self.points.rounded(v))
     }
 }

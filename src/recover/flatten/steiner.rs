@@ -116,7 +116,7 @@ fn circumcenter(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Option<([f64; 3], f64)
 }
 
 fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
-    crate::recover::split::sight(p, a, b)
+    crate::recover::segments::sight(p, a, b)
 }
 
 pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -12,9 +12,8 @@ use super::room::Room;
 use crate::machine::less;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
-use crate::recover::region::Region;
-use crate::recover::scratch::Table;
-use crate::recover::side::{Side, Sides};
+use crate::recover::region::{Region, Side, Sides};
+use crate::recover::tables::Table;
 
 /// Tables that are kept from region to region.
 #[derive(Clone, Debug, Default)]

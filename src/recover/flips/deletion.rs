@@ -24,8 +24,8 @@ use super::time::{FlipTimes, Timing};
 use super::{Created, FlipCounts};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
-use crate::recover::cavity::{Face, face};
-use crate::recover::scratch::Table;
+use crate::recover::subpolygons::{Face, face};
+use crate::recover::tables::Table;
 use std::cmp::Ordering;
 
 /// The constraints that a deletion must leave in place.

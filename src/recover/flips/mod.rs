@@ -40,10 +40,10 @@ pub use time::{ExactTimes, FlipTimes, Float, Quotient, Timed, Timing, Undecided}
 pub use watch::{Fate, Watch};
 pub use wide::WideTimes;
 
-use super::side::{Side, Sides, crossing_facets};
 use crate::clock::{Task, TaskClock};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
+use crate::recover::region::{Side, Sides, crossing_facets};
 use arrayvec::ArrayVec;
 
 /// The tetrahedra that a flip created.

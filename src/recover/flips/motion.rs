@@ -1,10 +1,10 @@
 //! The vertices of a region and how fast their heights grow while f is inserted.
 
-use super::super::scratch::Table;
 use crate::mesh::VertexId;
 use crate::number::{Number, Vec3};
 use crate::predicate::PointStore;
 use crate::predicate::formula::{self, Lifted};
+use crate::recover::tables::Table;
 use std::cell::RefCell;
 
 /// Tells the left vertices of a polygon.

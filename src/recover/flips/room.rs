@@ -2,8 +2,8 @@
 
 use crate::mesh::{TetId, VertexId};
 use crate::predicate::PointStore;
-use crate::recover::scratch::Table;
-use crate::recover::side::{Side, Sides};
+use crate::recover::region::{Side, Sides};
+use crate::recover::tables::Table;
 
 /// What an insertion by flips asks about R and f.
 pub trait Room {

@@ -11,9 +11,8 @@ use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::number::{Dyadic, Wide, WidthTask};
 use crate::predicate::{NaivePoints, PointStore};
 use crate::recover::method::Times;
-use crate::recover::region::Region;
-use crate::recover::scratch::Table;
-use crate::recover::side::{Side, Sides};
+use crate::recover::region::{Region, Side, Sides};
+use crate::recover::tables::Table;
 use num_rational::BigRational;
 
 /// How the insertion of one region ended.

@@ -1,8 +1,8 @@
 //! What lies between two vertices a and b of a tetrahedralization: the edge ab, another vertex, or crossing tetrahedra.
 
-use super::scratch::Stamps;
 use crate::mesh::{TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
+use crate::recover::tables::Stamps;
 
 /// What one finds on leaving a in the direction of b.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -20,27 +20,19 @@
 //!
 //! # Complexity
 //! Expected O(n log n) for D, of n vertices, and linear time for the rest: D is searched for the facets of the boundary once
-//! ([`Walls`]), and after a tetrahedron has been swallowed only for those whose part of D has changed. What is inside is
+//! (`Walls`), and after a tetrahedron has been swallowed only for those whose part of D has changed. What is inside is
 //! glued as it is in D.
 
-use super::region::Region;
-use super::scratch::Table;
-use super::side::{Side, Sides, corners};
-use super::walls::{Filled, Wall, Walls};
+use super::Retriangulation;
+use super::boundary::{Filled, Wall, Walls};
 use crate::clock::{Task, TaskClock};
 use crate::delaunay::{Delaunay, delaunay};
 use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
+use crate::recover::region::{Region, Side, Sides, corners};
+use crate::recover::subpolygons::{Face, face};
+use crate::recover::tables::Table;
 use rustc_hash::{FxHashMap, FxHashSet};
-
-/// The vertices of a triangle in ascending order.
-pub type Face = [VertexId; 3];
-
-/// A triangle's vertices in ascending order.
-pub fn face(mut facet: [VertexId; 3]) -> Face {
-    facet.sort_unstable();
-    facet
-}
 
 /// Why cavity retriangulation is not possible here.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -55,58 +47,6 @@ pub enum Refused {
     Incompatible,
 }
 
-/// A retriangulation of R and of what the cavities swallowed, ready to be grafted.
-#[derive(Clone, Debug)]
-pub struct Retriangulation {
-    /// The tetrahedra to remove, sorted.
-    pub old: Vec<TetId>,
-    /// The tetrahedra that take their place.
-    pub new: Vec<[VertexId; 4]>,
-    /// What lies across their facets, if that is known.
-    pub gluing: Option<Gluing>,
-    /// The triangles of f.
-    pub faces: Vec<[VertexId; 3]>,
-    /// The triangles of other polygons that vanish.
-    pub displaced: Vec<Face>,
-    /// How many tetrahedra the cavities swallowed.
-    pub swallowed: usize,
-}
-
-/// What lies across the facets of new tetrahedra, which are named by their indices instead of ids.
-#[derive(Clone, Debug)]
-pub struct Gluing {
-    /// Other new tetrahedra, or none.
-    pub across: Vec<[Corner; 4]>,
-    /// The other corners of new tetrahedra, each with that of a tetrahedron that stays in the mesh.
-    pub outside: Vec<(Corner, Corner)>,
-}
-
-impl Retriangulation {
-    /// Puts the new tetrahedra into the place of the old ones. Returns their ids, in order.
-    pub fn graft(&self, mesh: &mut TetMesh) -> Vec<TetId> {
-        debug_assert!(mesh.can_replace(&self.old, &self.new));
-        let Some(gluing) = &self.gluing else {
-            return mesh.replace(&self.old, &self.new);
-        };
-        for &t in &self.old {
-            mesh.remove(t);
-        }
-        let ids: Vec<TetId> = self.new.iter().map(|&v| mesh.add(v)).collect();
-        let corner = |c: Corner| ids[c.tet().index()].corner(c.slot());
-        for (&t, across) in ids.iter().zip(&gluing.across) {
-            for (slot, &across) in across.iter().enumerate() {
-                if across != Corner::NONE {
-                    mesh.set_twin(t.corner(slot), corner(across));
-                }
-            }
-        }
-        for &(new, old) in &gluing.outside {
-            mesh.glue(corner(new), old);
-        }
-        ids
-    }
-}
-
 /// Memory that is kept from region to region.
 #[derive(Clone, Debug, Default)]
 pub struct CavityScratch {
@@ -115,7 +55,7 @@ pub struct CavityScratch {
     /// The vertices of D, each with a tetrahedron of D once D has been indexed.
     tet_at: Table<Option<TetId>>,
     /// Which task takes how long, if somebody asks.
-    pub(super) clock: TaskClock,
+    pub(crate) clock: TaskClock,
 }
 
 /// Retriangulates the region R of f. `is_subpolygon` tells the triangles of polygons that are in the mesh, if there are any.

@@ -1,14 +1,13 @@
 //! What is known of a polygon before anything is done: whether it is a triangle of the mesh already, and whether a segment or
 //! another polygon crosses it, which in a valid PLC none does.
 
-use super::cavity::{Face, face};
-use super::polygons::PolygonInsertion;
-use super::region::Region;
-use super::side::{Side, Sides};
+use super::PolygonInsertion;
 use crate::error::{Failure, InvalidPlc, NotFlatReason};
 use crate::mesh::{TetId, VertexId};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
+use crate::recover::region::{Region, Side, Sides};
+use crate::recover::subpolygons::{Face, face};
 
 /// How many tetrahedra at a vertex are looked at for one that has another vertex, too, without a hash table.
 const MOST_LOOKS: usize = 40;

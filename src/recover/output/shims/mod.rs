@@ -25,32 +25,15 @@
 
 mod edge_flip;
 
-use super::Pieces;
-use super::plane::Plane;
 use crate::mesh::{Groups, Incidence, TetId, TetMesh, VertexId};
 use crate::number::Sign;
 use crate::predicate::PointStore;
-use crate::recover::cavity::face;
 use crate::recover::domain::DomainMarks;
-use crate::recover::polygons::Subpolygons;
+use crate::recover::flatten::{Pieces, Plane, ShimCounts};
 use crate::recover::segments::{SegmentIndex, Subsegments};
-use serde::Serialize;
+use crate::recover::subpolygons::Subpolygons;
+use crate::recover::subpolygons::face;
 use std::borrow::Cow;
-
-/// How many shims the domain had, and what became of them.
-#[derive(Clone, Copy, Default, PartialEq, Eq, Debug, Serialize)]
-pub struct ShimCounts {
-    /// Shims of the domain before repair: all four vertices on one polygon that was cut.
-    pub found: u64,
-    /// Shims left outside by a 2-2 flip of the domain's boundary.
-    pub two_two: u64,
-    /// 3-2 flips that removed shims.
-    pub three_two: u64,
-    /// 4-4 flips that removed shims.
-    pub four_four: u64,
-    /// Shims of the output.
-    pub kept: u64,
-}
 
 /// Which polygons that were cut each vertex is on.
 struct CutPolygons {
@@ -61,8 +44,15 @@ impl CutPolygons {
     /// `None` if none was cut. There are n vertices.
     fn new(pieces: &Pieces, n: usize) -> Option<CutPolygons> {
         let mut at: Vec<(VertexId, u32)> = Vec::new();
-        let mut last = vec![usize::MAX; if pieces.was_cut.contains(&true) { n } else { 0 }];
-        for f in (0..pieces.was_cut.len()).filter(|&f| pieces.was_cut[f]) {
+        let mut last = vec![
+            usize::MAX;
+            if pieces.cut_polygons().next().is_some() {
+                n
+            } else {
+                0
+            }
+        ];
+        for f in pieces.cut_polygons() {
             for &v in pieces.complex.polygons[pieces.of(f)]
                 .iter()
                 .flat_map(|piece| &piece.vertices)
@@ -253,7 +243,7 @@ mod tests {
     use crate::delaunay::delaunay;
     use crate::plc::{Complex, Polygon};
     use crate::predicate::DoublePoints;
-    use crate::recover::cavity::Face;
+    use crate::recover::subpolygons::Face;
     use std::sync::Arc;
 
     /// A quadrilateral 0123 that is not flat, 4 exactly on the circumsphere of its corners, 5 beyond it on the other side.

@@ -3,7 +3,7 @@
 use super::{CutPolygons, Repair};
 use crate::mesh::{TetId, VertexId};
 use crate::predicate::PointStore;
-use crate::recover::cavity::{Face, face};
+use crate::recover::subpolygons::{Face, face};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A flip in place of the tetrahedra around an edge.

@@ -1,19 +1,19 @@
 //! Deleting an inserted polygon: which triangles are its, which constraints stay, and what to call what is in the way.
-//! The flips are in [`flips`](super::flips).
+//! The flips are in [`flips`](crate::recover::flips).
 //!
 //! The segments of the polygon stay, with their Steiner points. Everything takes time in proportion to the polygon and to
 //! the region that is flipped, not to the mesh.
 
-use super::cavity::{Face, face};
-use super::flips::{Blocked, FlipCounts, Kept, flip_delete};
-use super::method::Times;
-use super::polygons::{Scratch, Subpolygons, boundary_subsegments};
-use super::segments::{SegmentIndex, Subsegments};
-use super::side::Sides;
 use crate::error::{DeletionRefused, Obstacle};
 use crate::mesh::{Corner, Incidence, TetId, TetMesh, VertexId};
 use crate::plc::Complex;
 use crate::predicate::PointStore;
+use crate::recover::flips::{Blocked, FlipCounts, Kept, flip_delete};
+use crate::recover::method::Times;
+use crate::recover::polygons::{Scratch, Subpolygons, boundary_subsegments};
+use crate::recover::region::Sides;
+use crate::recover::segments::{SegmentIndex, Subsegments};
+use crate::recover::subpolygons::{Face, face};
 use rustc_hash::FxHashSet;
 use serde::Serialize;
 

@@ -1,25 +1,29 @@
 //! All polygons, one missing region at a time, by any of the algorithms (paper §3, §3.3).
 
-use super::cavity::{CavityScratch, Face, face};
-use super::dump::region_as_plc;
+mod by_retriangulation;
+mod counts;
+mod flip_result;
+mod intersections;
+
+pub use super::method::{Insertion, Times};
+pub use super::subpolygons::Subpolygons;
+pub use counts::PolygonCounts;
+
 use super::flips::{FlipOutcome, FlipScratch, Flipped, Watch, flip_insert, polygon_faces};
-use super::judge::{Judge, RegionFailure, inner_subpolygons};
-pub use super::method::{Insertion, PolygonCounts, Times};
-use super::missing::{self, Obstacle};
-use super::region::Region;
-use super::scratch::Table;
+use super::region::missing::{self, Obstacle};
+use super::region::{Region, Side, SideTable, Sides, region_as_plc};
+use super::retriangulate::cavity::CavityScratch;
 use super::segments::{SegmentIndex, Subsegments};
-use super::side::{Side, SideTable, Sides};
+use super::subpolygons::{Face, face};
+use super::tables::Table;
 use crate::clock::{TaskClock, TaskSeconds};
 use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
 use crate::predicate::PointStore;
-use rustc_hash::{FxHashMap, FxHashSet};
+use flip_result::{FlipResult, RegionFailure};
+use rustc_hash::FxHashSet;
 use std::collections::VecDeque;
-
-/// The triangles of the mesh that lie on polygons, by their vertices in ascending order.
-pub type Subpolygons = FxHashMap<Face, u32>;
 
 /// Inserts polygons into the tetrahedralization of an edge-protected PLC.
 pub struct PolygonInsertion<'a, P> {
@@ -54,9 +58,9 @@ pub struct PolygonInsertion<'a, P> {
 /// Tables that are kept from polygon to polygon.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    pub(super) flips: FlipScratch,
+    pub(crate) flips: FlipScratch,
     pub(super) cavity: CavityScratch,
-    pub(super) sides: SideTable,
+    pub(crate) sides: SideTable,
     region: Table<bool>,
     pub(super) star: Vec<TetId>,
 }
@@ -312,7 +316,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         }
         let inner = match times.is_exact() {
             true => Vec::new(),
-            false => inner_subpolygons(self.mesh, region, self.subpolygons),
+            false => region.inner_subpolygons(self.mesh, self.subpolygons),
         };
         let watch = self.watch.as_deref_mut().map(|w| w as &mut dyn Watch);
         let Flipped {
@@ -330,7 +334,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         self.counts.flips.add(&counts);
         self.incidence.update(self.mesh, &tets);
         let faces = polygon_faces(self.mesh, sides, &tets);
-        let judge = Judge {
+        let judge = FlipResult {
             mesh: self.mesh,
             sides,
             tets: &tets,
@@ -455,7 +459,7 @@ fn covers_simply(faces: &[[VertexId; 3]], boundary: &[[VertexId; 2]]) -> bool {
 }
 
 /// The directed subsegments that bound f.
-pub(super) fn boundary_subsegments(
+pub(crate) fn boundary_subsegments(
     subsegments: &Subsegments,
     index: &SegmentIndex,
     f: &Polygon,

@@ -128,7 +128,7 @@ impl Subsegments {
 
     /// Appends the directed subsegments that bound a polygon, edge by edge. An edge that is no segment of the input is there
     /// itself: it is an edge of a polygon that has been cut.
-    pub(super) fn append_boundary(
+    pub(crate) fn append_boundary(
         &self,
         index: &SegmentIndex,
         polygon: &Polygon,

@@ -5,18 +5,18 @@
 //! others; and the halves of what it splits may be missing. So the queue holds the missing subsegments, each once, but for
 //! some that have come back.
 
-use super::reach::{Reaches, Span};
-use super::scout::{Crossing, Scouted, scout};
-use super::scratch::Stamps;
+use super::Request;
+use super::conflict_intervals::{Reaches, Span};
+use super::inner_edges::inner_edges;
 use super::segment_index::key;
-use super::segments::Request;
 use super::split::{self, Reference, Subsegment, split_parameter};
+use super::straight_walk::{Crossing, Scouted, scout};
 use super::subsegments::Subsegments;
-use super::turn::inner_edges;
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp};
 use crate::mesh::{Incidence, TetId, VertexId};
 use crate::predicate::{Parameter, PointStore};
+use crate::recover::tables::Stamps;
 use rustc_hash::FxHashSet;
 use std::collections::BinaryHeap;
 

@@ -1,17 +1,16 @@
 //! What flips have made of a region, judged in exact arithmetic.
 //!
 //! In exact order the result is right by proof (Shewchuk 2003), and only impossible events are failures. In rounded order
-//! nothing is proved, and if predicates were rounded, too ([`Times::is_naive`](super::method::Times::is_naive)), tetrahedra
+//! nothing is proved, and if predicates were rounded, too ([`Times::is_naive`](crate::recover::method::Times::is_naive)), tetrahedra
 //! may be inverted. But each flip keeps the boundary of the volume that it fills, as a chain of oriented triangles. So
 //! if all tetrahedra are positive at the end then they fill R, each point once; if moreover none crosses f, all subpolygons
 //! are still there, and every other face is locally Delaunay, then they are the CDT, which is unique.
 
-use super::cavity::{Face, face};
-use super::polygons::Subpolygons;
-use super::region::Region;
-use super::side::Sides;
 use crate::mesh::{Corner, TetId, TetMesh};
 use crate::predicate::PointStore;
+use crate::recover::region::Sides;
+use crate::recover::subpolygons::Subpolygons;
+use crate::recover::subpolygons::{Face, face};
 use rustc_hash::FxHashSet;
 
 /// Why one region could not be inserted, in one orientation of f.
@@ -36,24 +35,8 @@ fn corners(tets: &[TetId]) -> impl Iterator<Item = Corner> {
         .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)))
 }
 
-/// The subpolygons between two tetrahedra of a region. No flip may remove them.
-pub(super) fn inner_subpolygons(
-    mesh: &TetMesh,
-    region: &Region,
-    subpolygons: &Subpolygons,
-) -> Vec<Face> {
-    if subpolygons.is_empty() {
-        return Vec::new();
-    }
-    corners(&region.tets)
-        .filter(|&c| c < mesh.twin(c) && region.contains(mesh.neighbor(c)))
-        .map(|c| face(mesh.facet(c)))
-        .filter(|t| subpolygons.contains_key(t))
-        .collect()
-}
-
 /// The result of flips in a region.
-pub(super) struct Judge<'a, P> {
+pub(super) struct FlipResult<'a, P> {
     /// The mesh.
     pub mesh: &'a TetMesh,
     /// The polygon f.
@@ -64,7 +47,7 @@ pub(super) struct Judge<'a, P> {
     pub subpolygons: &'a Subpolygons,
 }
 
-impl<P: PointStore> Judge<'_, P> {
+impl<P: PointStore> FlipResult<'_, P> {
     /// Whether all tetrahedra are positive.
     pub fn check_orientation(&self) -> Result<(), RegionFailure> {
         let points = self.sides.points();

@@ -37,12 +37,12 @@
 //! Complexity: each of the n_f facets finished costs a scan of the n_v vertices and, for the apex and for each vertex found
 //! invisible before it, one of the n_w walls: O(n_f·(n_v + k·n_w)), k near 1 in practice. Quadratic in the size of R.
 
-use super::cavity::{Face, Retriangulation, face};
-use super::region::Region;
-use super::side::{Side, Sides};
-use super::sight::Sight;
+use super::Retriangulation;
+use super::visibility::Sight;
 use crate::mesh::{TetMesh, VertexId, canonical_face};
 use crate::predicate::PointStore;
+use crate::recover::region::{Region, Side, Sides};
+use crate::recover::subpolygons::{Face, face};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A facet with an orientation: v is *in front* if orient3d(v, a, b, c) is positive. The smallest vertex comes first.

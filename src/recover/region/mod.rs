@@ -1,7 +1,14 @@
 //! The region R of a missing region of a polygon f: the tetrahedra whose interiors f cuts (paper §3).
 
-use super::scratch::Table;
-use super::side::{Sides, corners};
+mod as_plc;
+pub mod missing;
+mod sides;
+
+pub use as_plc::region_as_plc;
+pub use sides::{Side, SideTable, Sides, corners, crossing_facets};
+
+use super::subpolygons::{Face, Subpolygons, face};
+use super::tables::Table;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 
@@ -108,6 +115,22 @@ impl Region {
             .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
         corners
             .filter(|&c| !self.contains(mesh.neighbor(c)))
+            .collect()
+    }
+
+    /// The subpolygons between two tetrahedra of R.
+    pub fn inner_subpolygons(&self, mesh: &TetMesh, subpolygons: &Subpolygons) -> Vec<Face> {
+        if subpolygons.is_empty() {
+            return Vec::new();
+        }
+        let corners = self
+            .tets
+            .iter()
+            .flat_map(|&t| (0..4).map(move |slot| t.corner(slot)));
+        corners
+            .filter(|&c| c < mesh.twin(c) && self.contains(mesh.neighbor(c)))
+            .map(|c| face(mesh.facet(c)))
+            .filter(|t| subpolygons.contains_key(t))
             .collect()
     }
 }

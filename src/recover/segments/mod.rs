@@ -9,24 +9,38 @@
 //! else, so it is strongly regular for those weights. The CDT theorem holds for weighted CDTs (Shewchuk 2008), so the
 //! PLC has a CDT for the perturbed weights, which is what polygon insertion, with the same perturbation, builds.
 //!
-//! Each missing subsegment is split ([`super::split`]), the longest first (`recovery.rs`).
+//! Each missing subsegment is split (`split.rs`), the longest first (`recovery.rs`).
 //!
 //! # Thrift
 //! Which points are inserted is a choice. Two ways are tried side by side until it is clear which one needs fewer points
-//! (`race.rs`): the place that the rules of [`super::split`] say, and the place that destroys the fewest other subsegments
-//! (`harmless.rs`). In the end, points that turn out unnecessary are removed (`prune.rs`).
+//! (`best_of_two.rs`): the place that the rules of `split.rs` say, and the place that destroys the fewest other subsegments
+//! (`least_loss.rs`). In the end, points that turn out unnecessary are removed (`prune.rs`).
 
-use super::race::recover_thriftily;
-pub use super::recovery::Changes;
-use super::recovery::{Placement, Recovered, SegmentRecovery};
-use super::scout::{Scouted, scout};
-pub use super::segment_index::SegmentIndex;
-pub use super::subsegments::Subsegments;
+mod best_of_two;
+mod conflict_intervals;
+mod inner_edges;
+mod least_loss;
+mod obstruction;
+mod prune;
+mod recovery;
+mod segment_index;
+mod split;
+mod straight_walk;
+mod subsegments;
+mod why_missing;
+
 use crate::delaunay::Delaunay;
 use crate::error::Failure;
 use crate::mesh::{Incidence, VertexId};
 use crate::plc::Complex;
 use crate::predicate::PointStore;
+use best_of_two::recover_thriftily;
+pub use recovery::Changes;
+use recovery::{Placement, Recovered, SegmentRecovery};
+pub use segment_index::SegmentIndex;
+pub(super) use split::sight;
+use straight_walk::{Scouted, scout};
+pub use subsegments::Subsegments;
 
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
 ///

@@ -2,7 +2,7 @@
 //!
 //! The place that the rules of [`super::split`] say is taken if it does no harm, that is, if no subsegment is lost in its
 //! conflict zone and both halves of the split one are edges afterwards. If it does, all places that leave both halves are
-//! compared at once ([`super::reach`]): the ends of the intervals where some subsegment is lost divide them into cells. Of
+//! compared at once ([`super::conflict_intervals`]): the ends of the intervals where some subsegment is lost divide them into cells. Of
 //! the cells in which the fewest are lost, the one nearest to the middle is taken, and in it a place with few bits.
 //! Very narrow cells count: between two segments that are close together there is often only one place that is level with
 //! the points of the other.
@@ -10,7 +10,7 @@
 //! All of this is a choice only: wherever the point is put, recovery stays correct. So floats do. The search ends because
 //! the effort is bounded (`recovery.rs`).
 
-use super::reach::Span;
+use super::conflict_intervals::Span;
 use super::recovery::SegmentRecovery;
 use super::split::{Subsegment, fewest_bits};
 use crate::mesh::{TetId, VertexId};

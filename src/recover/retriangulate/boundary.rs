@@ -8,8 +8,9 @@
 //!
 //! Complexity: linear in the sizes of the boundary and of D; [`Walls::find_again`] in the degrees of the vertices.
 
-use super::cavity::{Face, Gluing, face};
+use super::Gluing;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
+use crate::recover::subpolygons::{Face, face};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A triangle of a cavity's boundary.

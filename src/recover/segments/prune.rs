@@ -10,10 +10,10 @@
 
 use super::obstruction::is_obstructed;
 use super::recovery::Recovered;
-use super::scratch::Stamps;
 use crate::delaunay::filling;
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
+use crate::recover::tables::Stamps;
 
 impl Recovered {
     /// Without the Steiner points that are not needed. The others keep their order, and with it the perturbation, but

@@ -8,13 +8,11 @@
 //! tetrahedralization of R's vertices, and then they get Steiner points; the frame of f is chosen anew from its vertices
 //! in R; rounded times that are equal are flipped in order of arrival, which depends on the numbering of the tetrahedra.
 
-use super::judge::inner_subpolygons;
-use super::polygons::Subpolygons;
-use super::region::Region;
-use super::side::{Side, Sides};
+use super::{Region, Side, Sides};
 use crate::exchange::{Facet, Plc};
 use crate::mesh::{TetMesh, VertexId};
 use crate::predicate::PointStore;
+use crate::recover::subpolygons::Subpolygons;
 use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -39,7 +37,7 @@ pub fn region_as_plc<P: PointStore>(
         .collect();
     let boundary = region.boundary(mesh);
     let triangles = boundary.iter().map(|&c| mesh.facet(c));
-    let inner = inner_subpolygons(mesh, region, subpolygons);
+    let inner = region.inner_subpolygons(mesh, subpolygons);
     let mut facets: Vec<Vec<Vec<VertexId>>> =
         triangles.chain(inner).map(|t| vec![t.to_vec()]).collect();
     facets.push(border_of_polygon(mesh, sides, region));

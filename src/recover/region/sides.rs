@@ -1,10 +1,10 @@
 //! On which side of a polygon a vertex lies (paper §3.2: left, right, or neither).
 
-use super::scratch::Table;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::number::{Approx, Dyadic, Exact, Number, Sign};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
+use crate::recover::tables::Table;
 use std::cell::RefCell;
 
 /// Where a vertex lies with respect to the plane h of a polygon f.

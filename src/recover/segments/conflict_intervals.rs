@@ -11,9 +11,9 @@
 //! a point x is inside the circumsphere iff D |x|² − x·G < 0, where G = |e|² f×g + |f|² g×e + |g|² e×f. D and G are kept
 //! for each tetrahedron until it is replaced: most are looked at many times.
 
+use super::inner_edges::inner_edges;
 use super::obstruction::cross;
 use super::split::{dot, sub};
-use super::turn::inner_edges;
 use crate::machine::prefetch;
 use crate::mesh::{TetId, TetMesh, VertexId, any_infinite};
 use crate::predicate::PointStore;

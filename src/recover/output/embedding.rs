@@ -18,12 +18,12 @@
 //! All of it is combinatorial, hence exact. Edges are grouped by their lesser ends: O(n + k) for k triangles on polygons, of
 //! n vertices with few edges each.
 
-use super::cavity::Face;
-use super::polygons::Subpolygons;
-use super::segments::{SegmentIndex, Subsegments};
 use crate::error::InvalidPlc;
 use crate::mesh::{Groups, VertexId};
 use crate::plc::Complex;
+use crate::recover::segments::{SegmentIndex, Subsegments};
+use crate::recover::subpolygons::Face;
+use crate::recover::subpolygons::Subpolygons;
 
 /// An edge, by its greater end, with a triangle of a polygon at it, or with a side of a polygon that it bounds; as one number,
 /// for sorting.

@@ -4,14 +4,14 @@
 //! refused. Gift wrapping is refused only if f is not flat or the PLC not valid; then the caller flips. It also flips in
 //! place of a fallback on gift wrapping, whose time is quadratic, in regions of more than [`MOST_WRAPPED`] tetrahedra.
 
-use super::cavity::{self, Face, Retriangulation};
-use super::gift_wrap::gift_wrap;
-use super::method::Insertion;
-use super::polygons::{PolygonInsertion, count_shims};
-use super::region::Region;
-use super::side::Sides;
+use super::{PolygonInsertion, count_shims};
 use crate::clock::Task;
 use crate::predicate::PointStore;
+use crate::recover::method::Insertion;
+use crate::recover::region::{Region, Sides};
+use crate::recover::retriangulate::gift_wrap::gift_wrap;
+use crate::recover::retriangulate::{Retriangulation, cavity};
+use crate::recover::subpolygons::Face;
 
 /// The largest region that is gift wrapped because cavity retriangulation was refused: seconds, not minutes.
 pub const MOST_WRAPPED: usize = 10_000;
@@ -94,15 +94,15 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::gift_wrap;
-    use super::super::polygons::{PolygonCounts, Scratch, Subpolygons, Times};
-    use super::super::segments::{SegmentIndex, Subsegments, recover_segments};
     use super::*;
     use crate::delaunay::delaunay;
     use crate::exchange::{Facet, Plc};
     use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
     use crate::plc::Complex;
     use crate::predicate::DoublePoints;
+    use crate::recover::polygons::{PolygonCounts, Scratch, Subpolygons, Times};
+    use crate::recover::retriangulate::gift_wrap;
+    use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 
     /// A mesh with all segments of a PLC.
     struct Scene {

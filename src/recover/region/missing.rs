@@ -5,10 +5,10 @@
 //! tetrahedron, which is in a missing region. The search crosses the other two edges of a subpolygon, unless they bound
 //! f. No two-dimensional triangulation of f is made beforehand.
 
-use super::cavity::{Face, face};
-use super::side::{Side, Sides};
+use super::{Side, Sides};
 use crate::mesh::{Corner, Incidence, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
+use crate::recover::subpolygons::{Face, face};
 use rustc_hash::FxHashSet;
 
 /// The result of the search.

@@ -1,0 +1,52 @@
+//! The polygons of a complex in exactly flat pieces: which pieces are those of a polygon, and whose a piece is.
+
+use crate::mesh::VertexId;
+use crate::plc::Complex;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The polygons of a complex in exactly flat pieces.
+#[derive(Clone, Debug, Default)]
+pub struct Pieces {
+    /// The segments of the complex, and all pieces: polygons that were flat as they are, and the pieces of the others, whose
+    /// edges are edges of the mesh. The complex itself if nothing had to be cut.
+    pub complex: Arc<Complex>,
+    /// The first piece of each polygon, and the number of pieces at the end.
+    pub(crate) first: Vec<usize>,
+    /// Which polygons are not flat.
+    pub(crate) was_cut: Vec<bool>,
+    /// Steiner points inside each polygon.
+    pub(crate) inner: Vec<Vec<VertexId>>,
+}
+
+impl Pieces {
+    /// The pieces of polygon f.
+    pub fn of(&self, f: usize) -> Range<usize> {
+        self.first[f]..self.first[f + 1]
+    }
+
+    /// The first piece of each polygon, and the number of pieces.
+    pub(crate) fn clone_firsts(&self) -> Vec<usize> {
+        self.first.clone()
+    }
+
+    /// The polygon that piece `p` belongs to.
+    pub fn polygon_of(&self, p: usize) -> usize {
+        self.first.partition_point(|&first| first <= p) - 1
+    }
+
+    /// Whether polygon f had to be cut.
+    pub fn is_cut(&self, f: usize) -> bool {
+        self.was_cut[f]
+    }
+
+    /// The polygons that had to be cut.
+    pub fn cut_polygons(&self) -> impl Iterator<Item = usize> {
+        (0..self.was_cut.len()).filter(|&f| self.was_cut[f])
+    }
+
+    /// Steiner points inside polygon f.
+    pub fn inner_points(&self, f: usize) -> &[VertexId] {
+        &self.inner[f]
+    }
+}
