@@ -11,7 +11,7 @@ const WALL: usize = 10;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/rooms.poly");
-    let mut plc = read_plc(path.as_ref())?;
+    let (mut plc, _) = read_plc(path.as_ref())?;
     // Without the wall the two region points would be in one region.
     plc.regions.clear();
     let insertion = Insertion::Flip(Times::Filtered);

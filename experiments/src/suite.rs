@@ -73,7 +73,7 @@ pub fn of_directory(directory: &Path) -> std::io::Result<Vec<Model>> {
     let entries = std::fs::read_dir(directory)?;
     let mut paths: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
     paths.sort();
-    paths.retain(|path| read_plc(path).is_ok_and(|plc| !plc.facets.is_empty()));
+    paths.retain(|path| read_plc(path).is_ok_and(|(plc, _)| !plc.facets.is_empty()));
     Ok(paths.into_iter().map(Model::of_file).collect())
 }
 
@@ -105,7 +105,7 @@ impl Model {
     pub fn plc(&self) -> Result<Plc, tetflip::format::FormatError> {
         match &self.recipe {
             Recipe::Generated(kind, seed, size) => Ok(generate(*kind, *seed, *size)),
-            Recipe::File(path) => read_plc(path),
+            Recipe::File(path) => read_plc(path).map(|(plc, _)| plc),
         }
     }
 }

@@ -1,12 +1,12 @@
 //! What must hold whatever a reader is given.
 
 use tetflip::format::FormatError;
-use tetflip::exchange::Plc;
+use tetflip::exchange::{Note, Plc};
 
 /// What is accepted is finite, in range, and no larger than the file; what is refused can be said.
-pub fn check(bytes: &[u8], result: Result<Plc, FormatError>) {
+pub fn check(bytes: &[u8], result: Result<(Plc, Vec<Note>), FormatError>) {
     let plc = match result {
-        Ok(plc) => plc,
+        Ok((plc, _)) => plc,
         Err(error) => {
             assert!(error.to_string().len() < 1000);
             return;

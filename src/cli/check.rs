@@ -36,7 +36,7 @@ pub(crate) fn check_file(arguments: &CheckArguments) -> Result<(), Stop> {
         }
         check_outputs(&arguments.input, Some(path), None)?;
     }
-    let plc = read(&arguments.input)?;
+    let (plc, _) = read(&arguments.input)?;
     let findings = check(&plc, arguments.max);
     if let Some(path) = &arguments.output {
         write_conflicts(path, &plc, &findings).map_err(Stop::input)?;

@@ -24,7 +24,7 @@ pub(crate) struct DelaunayArguments {
 /// Makes the Delaunay tetrahedralization of the vertices and writes it.
 pub(crate) fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop> {
     check_outputs(&arguments.input, arguments.output.as_deref(), None)?;
-    let plc = read(&arguments.input)?;
+    let (plc, _) = read(&arguments.input)?;
     let vertices_only = Plc {
         first_index: plc.first_index,
         vertices: plc.vertices,

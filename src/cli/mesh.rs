@@ -90,7 +90,7 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         arguments.output.as_deref(),
         arguments.report.as_deref(),
     )?;
-    let plc = read(&arguments.input)?;
+    let (plc, _) = read(&arguments.input)?;
     let mut report = Report::default();
     let bar = progress_bar(plc.facets.len(), arguments.quiet);
     let mut result = tetrahedralize(&plc, &options, &mut report, &mut |done| {

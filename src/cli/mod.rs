@@ -9,8 +9,7 @@ pub(crate) mod verify;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tetflip::exchange::ExportedMesh;
-use tetflip::exchange::Plc;
+use tetflip::exchange::{ExportedMesh, Note, Plc};
 use tetflip::format::{
     FormatError, mesh_paths, node_path, read_plc, read_poly, read_smesh, write_mesh,
 };
@@ -46,12 +45,14 @@ pub(crate) fn failure_path(output: &Path) -> PathBuf {
     output.with_extension("failure.poly")
 }
 
-/// Reads a PLC; the message of a failure names the file.
-pub(crate) fn read(path: &Path) -> Result<Plc, Stop> {
-    read_plc(path).map_err(|error| match error {
+/// Reads a PLC and prints the notes of its reader, which are returned, too; the message of a failure names the file.
+pub(crate) fn read(path: &Path) -> Result<(Plc, Vec<Note>), Stop> {
+    let read = read_plc(path).map_err(|error| match error {
         FormatError::Io { .. } => Stop::input(error),
         error => Stop::input(format!("{}: {error}", path.display())),
-    })
+    })?;
+    read.1.iter().for_each(|note| warn(&note.to_string()));
+    Ok(read)
 }
 
 /// Writes a mesh, if there is a place for it.

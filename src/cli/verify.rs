@@ -58,7 +58,7 @@ fn merge_angle(word: &str) -> Result<f64, String> {
 /// Verifies a mesh against its PLC.
 pub(crate) fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
     let (plc, mesh) = rayon::join(|| read(&arguments.plc), || read_mesh(&arguments.mesh));
-    let (plc, mesh) = (plc?, mesh.map_err(Stop::input)?);
+    let ((plc, _), mesh) = (plc?, mesh.map_err(Stop::input)?);
     let exactly = VerifyOptions {
         domain: match arguments.domain {
             DomainArgument::Auto => Domain::Auto,

@@ -22,7 +22,9 @@ pub(in super::super) fn window() -> usize {
 /// What is read, or the error, as texts.
 type Read = Box<dyn Fn(&[u8]) -> Result<String, String> + Send + Sync>;
 
-fn plc(read: fn(&[u8]) -> Result<Plc, FormatError>) -> Read {
+type Reading = Result<(Plc, Vec<Note>), FormatError>;
+
+fn plc(read: fn(&[u8]) -> Reading) -> Read {
     Box::new(move |bytes| {
         let plc = read(bytes).map_err(|error| error.to_string())?;
         Ok(format!("{plc:?}"))

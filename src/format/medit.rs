@@ -10,7 +10,7 @@ use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Place, Reason};
 use super::poly::{marker_of, vertex};
 use super::text::Text;
-use crate::exchange::{Facet, Plc, Segment};
+use crate::exchange::{Facet, Note, Plc, Segment};
 use crate::mesh::VertexId;
 
 /// What is skipped: the numbers per element.
@@ -53,7 +53,7 @@ const SOLIDS: [(&str, u64); 6] = [
 ];
 
 /// Reads a Medit file.
-pub fn read_medit(bytes: &[u8]) -> Result<Plc, FormatError> {
+pub fn read_medit(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
     if bytes.starts_with(b"\x01\0\0\0") || bytes.starts_with(b"\0\0\0\x01") {
         return Err(FormatError::Malformed {
             place: Place::Byte(0),
@@ -72,7 +72,7 @@ pub fn read_medit(bytes: &[u8]) -> Result<Plc, FormatError> {
     reader.head()?;
     while reader.section()? {}
     reader.text.end_file()?;
-    reader.finish()
+    Ok((reader.finish()?, Vec::new()))
 }
 
 struct Reader<'a> {

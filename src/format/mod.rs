@@ -1,8 +1,8 @@
 //! Files: PLCs in, in the formats of TetGen (`.poly`, `.smesh`, `.node`), OFF, STL, PLY, OBJ and Medit (`.mesh`);
 //! meshes out and in.
 //!
-//! Every reader takes the bytes of a file and gives a [`Plc`] or a [`FormatError`] with a line or an offset. Readers are
-//! linear in the file's size whatever its header says, and check the syntax alone; [`crate::plc::Complex::new`] checks
+//! Every reader takes the bytes of a file and gives a [`Plc`] with notes on what was forgiven, or a [`FormatError`] with
+//! a line or an offset. Readers are linear in the file's size whatever its header says, and check the syntax alone; [`crate::plc::Complex::new`] checks
 //! the geometry. What a reader accepts has at least one vertex, finite coordinates, and no corner out of range.
 
 mod ahead;
@@ -39,7 +39,7 @@ pub use poly::{read_node, read_poly, read_smesh};
 pub use poly_file::write_poly;
 pub use stl::read_stl;
 
-use crate::exchange::Plc;
+use crate::exchange::{Note, Plc};
 use std::path::{Path, PathBuf};
 
 /// Reads a file in the format that its extension names, in either case: `.poly`, `.smesh`, `.node`, `.off`, `.stl`,
@@ -47,7 +47,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// If the file cannot be read or is malformed; and if it then looks like a file of another format, the error says so.
-pub fn read_plc(path: &Path) -> Result<Plc, FormatError> {
+pub fn read_plc(path: &Path) -> Result<(Plc, Vec<Note>), FormatError> {
     let given = path.extension().unwrap_or_default().to_string_lossy();
     let extension = match &given.to_ascii_lowercase()[..] {
         // Binary, which the reader refuses.

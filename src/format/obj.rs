@@ -12,18 +12,18 @@
 use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Place, Reason};
 use super::text::Text;
-use crate::exchange::{Facet, Plc, Segment};
+use crate::exchange::{Facet, Note, Plc, Segment};
 use crate::mesh::VertexId;
 
 /// Reads an OBJ file.
-pub fn read_obj(bytes: &[u8]) -> Result<Plc, FormatError> {
+pub fn read_obj(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
     let mut text = Text::new(bytes, true);
     let mut objects = Objects::default();
     read_ahead(&mut text, u64::MAX, &mut objects, statement);
     while text.advance() {
         statement(&mut text, &mut objects)?;
     }
-    finish(&text, objects)
+    Ok((finish(&text, objects)?, Vec::new()))
 }
 
 /// What statements come to.

@@ -12,15 +12,16 @@ use super::error::{FormatError, Reason};
 use super::off_binary::read_binary;
 use super::poly;
 use super::text::Text;
-use crate::exchange::{Facet, Plc};
+use crate::exchange::{Facet, Note, Plc};
 
 /// Reads an OFF file.
-pub fn read_off(bytes: &[u8]) -> Result<Plc, FormatError> {
+pub fn read_off(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
     let mut text = Text::new(bytes, true);
     let vertices = match header(&mut text)? {
         Header::Vertices(count) => count,
         Header::Binary { extra } => {
-            return read_binary(bytes, bytes.len() - text.rest().len(), extra);
+            let plc = read_binary(bytes, bytes.len() - text.rest().len(), extra)?;
+            return Ok((plc, Vec::new()));
         }
     };
     let token = text.anywhere("the number of faces")?;
@@ -47,7 +48,7 @@ pub fn read_off(bytes: &[u8]) -> Result<Plc, FormatError> {
         face(&mut text, &mut plc.facets)?;
     }
     text.end_file()?;
-    Ok(plc)
+    Ok((plc, Vec::new()))
 }
 
 /// What is known after the header.

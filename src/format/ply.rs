@@ -14,11 +14,11 @@ use super::bytes::Bytes;
 use super::error::{FormatError, Reason};
 use super::ply_header::{Element, Encoding, Property, Role, Type, header};
 use super::text::Text;
-use crate::exchange::{Facet, Plc, Segment};
+use crate::exchange::{Facet, Note, Plc, Segment};
 use crate::mesh::VertexId;
 
 /// Reads a PLY file.
-pub fn read_ply(bytes: &[u8]) -> Result<Plc, FormatError> {
+pub fn read_ply(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
     let mut text = Text::new(bytes, false);
     let header = header(&mut text)?;
     let mut body = match header.encoding {
@@ -52,7 +52,7 @@ pub fn read_ply(bytes: &[u8]) -> Result<Plc, FormatError> {
         plc = elements.plc;
     }
     body.end_file()?;
-    Ok(plc)
+    Ok((plc, Vec::new()))
 }
 
 /// How many elements of one kind have been read, and what all elements come to.

@@ -20,7 +20,7 @@ use super::ahead::{Rows, read_ahead, read_aligned};
 use super::error::{FormatError, Reason};
 use super::text::Text;
 use super::vertices::Vertices;
-use crate::exchange::{Facet, Plc, Region, Segment};
+use crate::exchange::{Facet, Note, Plc, Region, Segment};
 use crate::mesh::VertexId;
 
 /// A list of vertices: the number of the first, and the coordinates.
@@ -37,25 +37,26 @@ enum FacetList {
 }
 
 /// Reads a `.node` file: vertices alone.
-pub fn read_node(bytes: &[u8]) -> Result<Plc, FormatError> {
+pub fn read_node(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
     let mut text = Text::new(bytes, true);
     let (first_index, vertices) = vertex_list(&mut text)?;
     if vertices.is_empty() {
         return Err(text.error(Reason::NoVertices));
     }
     text.end_file()?;
-    Ok(Plc {
+    let plc = Plc {
         first_index,
         vertices,
         ..Plc::default()
-    })
+    };
+    Ok((plc, Vec::new()))
 }
 
 /// Reads a `.poly` file. `nodes` is asked for the bytes of the `.node` file if the list of vertices is empty.
 pub fn read_poly(
     bytes: &[u8],
     nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
-) -> Result<Plc, FormatError> {
+) -> Result<(Plc, Vec<Note>), FormatError> {
     read(bytes, FacetList::Poly, nodes)
 }
 
@@ -63,7 +64,7 @@ pub fn read_poly(
 pub fn read_smesh(
     bytes: &[u8],
     nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
-) -> Result<Plc, FormatError> {
+) -> Result<(Plc, Vec<Note>), FormatError> {
     read(bytes, FacetList::Smesh, nodes)
 }
 
@@ -71,17 +72,18 @@ fn read(
     bytes: &[u8],
     list: FacetList,
     nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
-) -> Result<Plc, FormatError> {
+) -> Result<(Plc, Vec<Note>), FormatError> {
     let mut text = Text::new(bytes, true);
     let (first_index, vertices) = vertex_list(&mut text)?;
-    let mut plc = if vertices.is_empty() {
+    let (mut plc, notes) = if vertices.is_empty() {
         read_node(&nodes()?).map_err(|e| FormatError::NodeFile(Box::new(e)))?
     } else {
-        Plc {
+        let plc = Plc {
             first_index,
             vertices,
             ..Plc::default()
-        }
+        };
+        (plc, Vec::new())
     };
     facet_list(&mut text, list, &mut plc)?;
     if text.advance() {
@@ -91,7 +93,7 @@ fn read(
         plc.regions = regions(&mut text)?;
     }
     text.end_file()?;
-    Ok(plc)
+    Ok((plc, notes))
 }
 
 fn vertex_list(text: &mut Text) -> Result<VertexList, FormatError> {

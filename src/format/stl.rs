@@ -13,7 +13,7 @@
 use super::ahead::{Rows, read_aligned};
 use super::error::{FormatError, Place, Reason};
 use super::text::Text;
-use crate::exchange::{Facet, Plc};
+use crate::exchange::{Facet, Note, Plc};
 use crate::mesh::VertexId;
 use rustc_hash::FxHashMap;
 
@@ -21,7 +21,7 @@ const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
 /// Reads an STL file.
-pub fn read_stl(bytes: &[u8]) -> Result<Plc, FormatError> {
+pub fn read_stl(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
     let mut mesh = Merged::default();
     let solid = bytes
         .trim_ascii_start()
@@ -39,7 +39,7 @@ pub fn read_stl(bytes: &[u8]) -> Result<Plc, FormatError> {
             reason: Reason::NoVertices,
         });
     }
-    Ok(mesh.plc)
+    Ok((mesh.plc, Vec::new()))
 }
 
 /// The size that the header announces.

@@ -1,7 +1,7 @@
 //! The readers of TetGen's files, OFF and STL: what they must accept, and what they must refuse and where. The other formats
 //! are in `surface_formats`, random files in `fuzz_formats`.
 
-use tetflip::exchange::Plc;
+use tetflip::exchange::{Note, Plc};
 use tetflip::format::{
     FormatError, Place, Reason, read_node, read_off, read_plc, read_poly, read_smesh, read_stl,
     write_poly,
@@ -49,7 +49,7 @@ const OFF: &str = "OFF # tetrahedron\r\n4 2\r\n\r\n0 0 0 255 0 0\r\n1 0 0\r\n# c
 const STL: &str = " solid a name\r\nfacet normal 0 0 nan\r\nouter loop\r\nvertex 0 0 0\r\nvertex 1 0 0\r\nvertex 0 1 0\r\nendloop\r\nendfacet\r\n\
     facet normal 0 0 1\r\n OUTER LOOP\r\nvertex -0 -0.0 0\r\nvertex 0 1e0 0\r\nvertex 0 0 1\r\nendloop\r\nendfacet\r\nendsolid a name\r\n";
 
-fn poly(text: &str) -> Result<Plc, FormatError> {
+fn poly(text: &str) -> Result<(Plc, Vec<Note>), FormatError> {
     read_poly(text.as_bytes(), || {
         Ok(b"3 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n".to_vec())
     })
@@ -72,7 +72,7 @@ fn ids<const N: usize>(ids: [u32; N]) -> Vec<VertexId> {
 }
 
 /// The line and the reason of a refusal.
-fn refusal(result: Result<Plc, FormatError>) -> (Place, Reason) {
+fn refusal(result: Result<(Plc, Vec<Note>), FormatError>) -> (Place, Reason) {
     match result {
         Err(FormatError::Malformed { place, reason }) => (place, reason),
         other => panic!("{other:?}"),
@@ -81,7 +81,7 @@ fn refusal(result: Result<Plc, FormatError>) -> (Place, Reason) {
 
 #[test]
 fn poly_has_all_its_parts() {
-    let plc = poly(POLY).unwrap();
+    let (plc, _) = poly(POLY).unwrap();
     assert_eq!((plc.first_index, plc.vertices.len()), (1, 6));
     assert_eq!(plc.vertices[4], [2.0, 2.0, 4.0]);
     assert_eq!(plc.facets.len(), 4);
@@ -105,18 +105,18 @@ fn poly_has_all_its_parts() {
 fn poly_is_written_as_it_is_read() {
     let place = tempfile::tempdir().expect("a temporary directory");
     let path = place.path().join("a.poly");
-    let mut plc = poly(POLY).expect("a good file");
+    let (mut plc, _) = poly(POLY).expect("a good file");
     plc.vertices[1] = [0.1, -5e-324, 1.7976931348623157e308];
     plc.vertices[2] = [-0.0, 1e15, 4f64.next_up()];
     write_poly(&path, &plc).expect("a writable directory");
-    let read = read_plc(&path).expect("what was written");
+    let (read, _) = read_plc(&path).expect("what was written");
     assert_eq!(read, plc);
     assert!(read.vertices[2][0].is_sign_negative());
 }
 
 #[test]
 fn smesh_counts_from_zero() {
-    let plc = read_smesh(SMESH.as_bytes(), || unreachable!("vertices are here")).unwrap();
+    let (plc, _) = read_smesh(SMESH.as_bytes(), || unreachable!("vertices are here")).unwrap();
     assert_eq!(plc.first_index, 0);
     assert_eq!(plc.facets[0].polygons, [ids([0, 1, 2])]);
     assert_eq!(plc.facets[0].marker, 5);
@@ -130,7 +130,7 @@ fn smesh_counts_from_zero() {
 
 #[test]
 fn empty_vertex_list_refers_to_the_node_file() {
-    let plc = poly("0 3 0 0\n1 0\n1\n3 0 1 2\n").unwrap();
+    let (plc, _) = poly("0 3 0 0\n1 0\n1\n3 0 1 2\n").unwrap();
     assert_eq!(
         (plc.first_index, plc.vertices.len(), plc.facets.len()),
         (0, 3, 1)
@@ -213,7 +213,7 @@ fn poly_says_where_it_is_wrong() {
 
 #[test]
 fn node_is_points_alone() {
-    let plc = read_node(b"2 3 0 1\n1 0 0 0 4\n2 1e-3 2 3 5\n").unwrap();
+    let (plc, _) = read_node(b"2 3 0 1\n1 0 0 0 4\n2 1e-3 2 3 5\n").unwrap();
     assert_eq!(plc.vertices, [[0.0; 3], [1e-3, 2.0, 3.0]]);
     assert_eq!(
         refusal(read_node(b"1 3\n1 0 0 0\n1 0 0 0\n")).0,
@@ -223,7 +223,7 @@ fn node_is_points_alone() {
 
 #[test]
 fn off_variants() {
-    let plc = read_off(OFF.as_bytes()).unwrap();
+    let (plc, _) = read_off(OFF.as_bytes()).unwrap();
     assert_eq!((plc.vertices.len(), plc.facets.len()), (4, 2));
     assert_eq!(plc.facets[1].polygons, [ids([2, 1, 3])]);
     let rest = "3 1 0\n0 0 0 9 9\n1 0 0\n0 1 0\n3 0 1 2 255\n";
@@ -237,7 +237,7 @@ fn off_variants() {
         "",
         "\u{feff}OFF\n",
     ] {
-        let plc = read_off(format!("{head}{rest}").as_bytes()).expect(head);
+        let (plc, _) = read_off(format!("{head}{rest}").as_bytes()).expect(head);
         assert_eq!((plc.vertices.len(), plc.facets.len()), (3, 1));
     }
 }
@@ -296,14 +296,14 @@ fn off_says_where_it_is_wrong() {
 
 #[test]
 fn stl_merges_equal_corners() {
-    let plc = read_stl(STL.as_bytes()).unwrap();
+    let (plc, _) = read_stl(STL.as_bytes()).unwrap();
     assert_eq!(plc.vertices.len(), 4);
     assert_eq!(plc.facets[1].polygons, [ids([0, 2, 3])]);
     let a = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.1, 0.0]];
     let b = [[-0.0, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 1.0]];
     // The header of a binary file may pretend that it is text.
     for header in ["", "solid facet normal"] {
-        let plc = read_stl(&binary_stl(header.as_bytes(), &[a, b])).unwrap();
+        let (plc, _) = read_stl(&binary_stl(header.as_bytes(), &[a, b])).unwrap();
         assert_eq!((plc.vertices.len(), plc.facets.len()), (4, 2));
         assert_eq!(plc.vertices[2][1], f64::from(0.1f32));
     }

@@ -5,7 +5,7 @@
 
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
-use tetflip::exchange::Plc;
+use tetflip::exchange::{Note, Plc};
 use tetflip::format::{
     FormatError, read_medit, read_mesh, read_node, read_obj, read_off, read_ply, read_poly,
     read_smesh, read_stl,
@@ -127,7 +127,7 @@ fn seeds() -> Vec<Vec<u8>> {
     seeds
 }
 
-fn read_with_all(bytes: &[u8]) -> Vec<Result<Plc, FormatError>> {
+fn read_with_all(bytes: &[u8]) -> Vec<Result<(Plc, Vec<Note>), FormatError>> {
     let node = || Ok(bytes.to_vec());
     vec![
         read_poly(bytes, node),
@@ -145,7 +145,7 @@ fn read_with_all(bytes: &[u8]) -> Vec<Result<Plc, FormatError>> {
 fn check(bytes: &[u8]) {
     for result in read_with_all(bytes) {
         let plc = match result {
-            Ok(plc) => plc,
+            Ok((plc, _)) => plc,
             Err(error) => {
                 assert!(error.to_string().len() < 1000, "{error}");
                 continue;

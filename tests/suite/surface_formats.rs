@@ -1,7 +1,7 @@
 //! The readers of PLY, OBJ, Medit and binary OFF: the same cube in all of them, what they refuse and where, and what
 //! `read_plc` says of files that are not what their name says.
 
-use tetflip::exchange::Plc;
+use tetflip::exchange::{Note, Plc};
 use tetflip::format::{
     FormatError, Place, Reason, read_medit, read_obj, read_off, read_plc, read_ply,
 };
@@ -34,7 +34,7 @@ fn is_the_cube(plc: &Plc, first_index: u32, vertices: &[[f64; 3]]) {
     }
 }
 
-fn refusal(result: Result<Plc, FormatError>) -> (Place, Reason) {
+fn refusal(result: Result<(Plc, Vec<Note>), FormatError>) -> (Place, Reason) {
     match result {
         Err(FormatError::Malformed { place, reason }) => (place, reason),
         other => panic!("{other:?}"),
@@ -124,21 +124,21 @@ fn ply_of_every_encoding() {
         .map(|p| p.map(|x| f64::from(x as f32)))
         .collect();
     for ending in ["\n", "\r\n", "\r"] {
-        let plc = read_ply(text.replace('\n', ending).as_bytes()).expect("a good file");
+        let (plc, _) = read_ply(text.replace('\n', ending).as_bytes()).expect("a good file");
         is_the_cube(&plc, 0, &corners());
         assert_eq!(plc.segments[0].ends, [VertexId(0), VertexId(7)]);
     }
     for big in [false, true] {
         for whole in ["uchar", "int8", "short", "int", "uint32"] {
-            let plc = read_ply(&ply_binary(big, true, whole)).expect("a good file");
+            let (plc, _) = read_ply(&ply_binary(big, true, whole)).expect("a good file");
             is_the_cube(&plc, 0, &corners());
             assert_eq!(plc.segments[0].ends, [VertexId(0), VertexId(7)]);
-            let plc = read_ply(&ply_binary(big, false, whole)).expect("a good file");
+            let (plc, _) = read_ply(&ply_binary(big, false, whole)).expect("a good file");
             is_the_cube(&plc, 0, &singles);
         }
     }
     let other_name = text.replace("vertex_indices", "vertex_index");
-    is_the_cube(&read_ply(other_name.as_bytes()).unwrap(), 0, &corners());
+    is_the_cube(&read_ply(other_name.as_bytes()).unwrap().0, 0, &corners());
 }
 
 /// After CR alone, a first byte of 10 belongs to the first number; after CR LF it does not.
@@ -149,7 +149,7 @@ fn binary_ply_after_every_line_ending() {
     for ending in ["\n", "\r\n", "\r"] {
         let mut bytes = header.replace('\n', ending).into_bytes();
         bytes.extend([10, 254, 255, 255, 255, 128, 255, 255]);
-        let plc = read_ply(&bytes).expect(ending);
+        let (plc, _) = read_ply(&bytes).expect(ending);
         assert_eq!(plc.vertices, [[-2.0, -128.0, 65535.0]]);
     }
 }
@@ -269,7 +269,7 @@ const OBJ: &str = "# a tetrahedron\r\nmtllib a b.mtl\no caf\u{e9}\nv 0 0 0 1.0\n
 #[test]
 fn obj_has_all_its_parts() {
     for text in [OBJ.to_owned(), OBJ.replace('\n', "\r\n")] {
-        let plc = read_obj(text.as_bytes()).expect("a good file");
+        let (plc, _) = read_obj(text.as_bytes()).expect("a good file");
         assert_eq!(plc.first_index, 1);
         let expected = [
             [0.0; 3],
@@ -338,7 +338,7 @@ fn medit() -> String {
 fn medit_has_all_its_parts() {
     let text = medit();
     for text in [text.clone(), text.replace('\n', "\r\n")] {
-        let plc = read_medit(text.as_bytes()).expect("a good file");
+        let (plc, _) = read_medit(text.as_bytes()).expect("a good file");
         is_the_cube(&plc, 1, &corners());
         assert_eq!(plc.facets[5].marker, 5);
         assert_eq!(plc.segments[0].ends, [VertexId(0), VertexId(7)]);
@@ -347,7 +347,7 @@ fn medit_has_all_its_parts() {
     // Line breaks mean nothing but the ends of comments.
     let (_, text) = text.split_once('\n').expect("a comment");
     is_the_cube(
-        &read_medit(text.replace('\n', "\t").as_bytes()).unwrap(),
+        &read_medit(text.replace('\n', "\t").as_bytes()).unwrap().0,
         1,
         &corners(),
     );
@@ -461,7 +461,7 @@ fn binary_off_of_every_layout() {
     for (head, extra) in [("OFF", 0), ("STCNOFF", 36), ("NOFF", 12)] {
         for (big, colours) in [(true, true), (true, false), (false, true), (false, false)] {
             let bytes = off_binary(head, extra, big, colours);
-            is_the_cube(&read_off(&bytes).expect("a good file"), 0, &singles);
+            is_the_cube(&read_off(&bytes).expect("a good file").0, 0, &singles);
             for length in 0..bytes.len() {
                 assert!(read_off(&bytes[..length]).is_err(), "{length}");
             }
@@ -537,10 +537,10 @@ fn extensions_in_capitals() {
         path
     };
     write("A.NODE", "3 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n");
-    let plc = read_plc(&write("A.POLY", "0 3 0 0\n1 0\n1\n3 0 1 2\n")).expect("a good file");
+    let (plc, _) = read_plc(&write("A.POLY", "0 3 0 0\n1 0\n1\n3 0 1 2\n")).expect("a good file");
     assert_eq!((plc.vertices.len(), plc.facets.len()), (3, 1));
     is_the_cube(
-        &read_plc(&write("a.Mesh", &medit())).expect("a good file"),
+        &read_plc(&write("a.Mesh", &medit())).expect("a good file").0,
         1,
         &corners(),
     );

@@ -26,7 +26,7 @@ pub fn take_part(word: &str, path: &Path) -> Result<(), Box<dyn Error>> {
         .clone()
         .find(|o| o.word() == word)
         .ok_or_else(|| format!("unknown word {word}"))?;
-    let plc = read_plc(path)?;
+    let (plc, _) = read_plc(path)?;
     if plc.facets.is_empty() && what == Ours::Delaunay {
         return points_only(plc);
     }

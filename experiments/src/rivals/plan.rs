@@ -110,7 +110,7 @@ impl Plan {
         let mut paths: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
         paths.sort();
         for path in paths {
-            if read_plc(&path).is_ok_and(|plc| !plc.facets.is_empty()) {
+            if read_plc(&path).is_ok_and(|(plc, _)| !plc.facets.is_empty()) {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 self.inputs.push(Input {
                     name: format!("points of {name}"),
@@ -182,9 +182,9 @@ impl Input {
             },
             Source::Scene(slab) => slab.plc(),
             Source::Generated(kind, size) => generate(*kind, 1, *size),
-            Source::File(path) => read_plc(path)?,
+            Source::File(path) => read_plc(path)?.0,
             Source::PointsOf(path) => Plc {
-                vertices: distinct(read_plc(path)?.vertices),
+                vertices: distinct(read_plc(path)?.0.vertices),
                 ..Plc::default()
             },
         };
@@ -257,7 +257,7 @@ mod tests {
         let directory = tempfile::TempDir::new().expect("a directory");
         for input in Plan::quick().inputs {
             let files = input.write(directory.path()).expect("written");
-            let plc = read_plc(&files.path).expect("a file");
+            let (plc, _) = read_plc(&files.path).expect("a file");
             assert_eq!(plc.vertices.len(), files.vertices, "{}", input.name);
             assert_eq!(plc.facets.len(), files.facets);
             assert_eq!(plc.facets.is_empty(), input.kind.word() == "points");

@@ -99,7 +99,7 @@ fn read_models(directory: &Path) -> Result<Vec<Model>, std::io::Error> {
     let model = |path: &PathBuf| {
         Some(Model {
             name: path.file_name()?.to_string_lossy().into_owned(),
-            plc: read_plc(path).ok()?,
+            plc: read_plc(path).ok()?.0,
         })
     };
     Ok(paths.iter().filter_map(model).collect())

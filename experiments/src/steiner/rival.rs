@@ -113,7 +113,7 @@ impl Rival {
 fn new_vertices(plc: &Plc, nodes: &Path) -> Option<usize> {
     let key = |p: &[f64; 3]| p.map(|x| format!("{:.12e}", x + 0.0));
     let known: HashSet<[String; 3]> = plc.vertices.iter().map(key).collect();
-    let written = read_plc(nodes).ok()?;
+    let (written, _) = read_plc(nodes).ok()?;
     let new = written.vertices.iter().filter(|p| !known.contains(&key(p)));
     Some(new.count())
 }

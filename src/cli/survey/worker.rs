@@ -114,7 +114,7 @@ pub(super) fn work(model: &Path, job: &Job) {
     send(&Line::Stage("reading".to_owned()));
     let start = Instant::now();
     let plc = match read_plc(model) {
-        Ok(plc) => plc,
+        Ok((plc, _)) => plc,
         Err(error) => {
             findings.ends("unreadable", format_kind(&error), error.to_string());
             return send_result(findings, false);

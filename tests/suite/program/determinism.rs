@@ -128,7 +128,7 @@ fn any_number_of_threads_writes_the_same_bytes() {
 fn threads_do_not_disturb_each_other() {
     let place = Place::with(&[("spiky.off", &spiky()), ("wires.poly", &wires())]);
     let mesh = |name: &str| -> ExportedMesh {
-        let plc = read_plc(&place.path(name)).expect("a good file");
+        let (plc, _) = read_plc(&place.path(name)).expect("a good file");
         let options = Options {
             keep_hull: true,
             ..Options::default()
