@@ -7,6 +7,7 @@ mod error;
 mod facet;
 mod frame;
 mod merge;
+mod open;
 mod plane;
 mod subdivision;
 mod triangulate;
