@@ -11,7 +11,7 @@
 //!                                                             │ recover::domain
 //!                                                             ▼
 //! files ◀── format ── ExportedMesh ◀───────────────── cdt::Cdt::export
-//!                          └──▶ verify: Plc + ExportedMesh ──▶ Verdict (exact; shares no code with the above)
+//!                          └──▶ verify: Plc + ExportedMesh ──▶ Verdict (exact, by its own means)
 //! ```
 //!
 //! [`cdt`] is that picture as code, one call per phase. Below it, `number` ← `predicate` and `mesh` (topology alone)

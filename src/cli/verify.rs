@@ -19,8 +19,9 @@ pub(crate) struct VerifyArguments {
     /// [default: 8, or 0 where NAME.steiner gives exact positions]
     #[arg(long, value_parser = tolerance)]
     tolerance: Option<f64>,
-    /// Facets with one marker may have been merged if the angle between them is at least this many degrees. TetGen merges
-    /// from 179.9 on. Only asked where the mesh does not hold with exactly coplanar facets merged, and then said.
+    /// Facets with one marker may have been merged if the angle between them is at least this many degrees. TetGen
+    /// merges from 179.9 on. Only asked where the mesh does not hold with exactly coplanar facets merged, and then
+    /// said.
     #[arg(long, value_parser = merge_angle, default_value_t = 179.9)]
     merge_angle: f64,
     /// Refuse a mesh in which facets that are not exactly coplanar have been merged.

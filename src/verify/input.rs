@@ -1,68 +1,70 @@
 //! The PLC in terms of the points of the mesh: every input vertex is the used mesh vertex with the same coordinates, or
 //! a point of its own if there is none.
 
-use super::places::Places;
-use super::points::{Points, cross, dot, minus};
-use super::tables::sorted2;
 use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Vec3};
 use crate::threads;
+use crate::verify::lookup::places::Places;
+use crate::verify::lookup::tables::sorted2;
+use crate::verify::signs::points::Points;
+use crate::verify::signs::vector::{cross, dot, minus};
 use rustc_hash::FxHashMap;
 
 /// Fewer elements are one thread's work.
 const FEW: usize = 1 << 12;
 
 /// An edge of facets or a segment given for itself; several coinciding ones are one.
-pub(super) struct InputEdge {
+pub(crate) struct InputEdge {
     /// Its ends, smaller first.
-    pub(super) ends: [VertexId; 2],
+    pub(crate) ends: [VertexId; 2],
     /// The facets that have it as an edge of one of their polygons, in increasing order.
-    pub(super) facets: Vec<usize>,
+    pub(crate) facets: Vec<usize>,
     /// Whether [`Plc::segments`] or a polygon with two vertices lists it.
-    pub(super) explicit: bool,
+    pub(crate) explicit: bool,
 }
 
 /// A facet.
-pub(super) struct InputFacet {
+pub(crate) struct InputFacet {
     /// The edges of its polygons by index in [`Input::edges`], without repetition.
-    pub(super) edges: Vec<usize>,
+    pub(crate) edges: Vec<usize>,
     /// Its vertices, without repetition.
-    pub(super) vertices: Vec<VertexId>,
+    pub(crate) vertices: Vec<VertexId>,
     /// Its hole points.
-    pub(super) holes: Vec<VertexId>,
+    pub(crate) holes: Vec<VertexId>,
     /// Three of its vertices that are not collinear and span a large triangle; none if all are collinear.
-    pub(super) frame: Option<[VertexId; 3]>,
+    pub(crate) frame: Option<[VertexId; 3]>,
     /// Whether all vertices lie exactly on the plane of the frame.
-    pub(super) flat: bool,
+    pub(crate) flat: bool,
     /// The largest distance of a vertex from that plane (rounded; 0 if flat).
-    pub(super) bulge: f64,
+    pub(crate) bulge: f64,
 }
 
 /// The PLC.
-pub(super) struct Input {
+pub(crate) struct Input {
     /// The point of each input vertex.
-    pub(super) site_of: Vec<VertexId>,
+    pub(crate) site_of: Vec<VertexId>,
     /// Whether a point is an input vertex.
-    pub(super) is_site: Vec<bool>,
+    pub(crate) is_site: Vec<bool>,
     /// Edges and segments, in order of their ends.
-    pub(super) edges: Vec<InputEdge>,
+    pub(crate) edges: Vec<InputEdge>,
     /// The facets, as in the PLC.
-    pub(super) facets: Vec<InputFacet>,
+    pub(crate) facets: Vec<InputFacet>,
     /// The points of the hole points.
-    pub(super) holes: Vec<VertexId>,
+    pub(crate) holes: Vec<VertexId>,
     /// The points of the region points.
-    pub(super) regions: Vec<VertexId>,
+    pub(crate) regions: Vec<VertexId>,
     /// Used mesh vertices that are doubles, and others at the same places before them.
-    pub(super) coincident: Vec<[VertexId; 2]>,
+    pub(crate) coincident: Vec<[VertexId; 2]>,
     /// Where the used mesh vertices are that are doubles, and the input vertices that are none.
-    pub(super) places: Places,
+    pub(crate) places: Places,
 }
 
 impl Input {
-    /// `used[v]` says whether mesh vertex v is in a tetrahedron. `exact` are those that are not where their doubles say.
-    pub(super) fn new(
+    /// `used[v]` says whether mesh vertex v is in a tetrahedron. `exact` are those that are not where their doubles
+    /// say.
+    pub(crate) fn new(
         plc: &Plc,
         used: &[bool],
         mesh: &ExportedMesh,
@@ -82,7 +84,8 @@ impl Input {
             }
         }
         let mut site_of = Vec::with_capacity(plc.vertices.len());
-        // Most input vertices are the mesh vertices with their numbers, which are the first ones there if none coincide.
+        // Most input vertices are the mesh vertices with their numbers, which are the first ones there if none
+        // coincide.
         let is_same = |i: usize, p: [f64; 3]| {
             coincident.is_empty()
                 && exact.is_empty()
@@ -162,7 +165,7 @@ impl Input {
     }
 
     /// Whether the point is an input vertex.
-    pub(super) fn is_site(&self, v: VertexId) -> bool {
+    pub(crate) fn is_site(&self, v: VertexId) -> bool {
         self.is_site.get(v.index()).copied().unwrap_or(false)
     }
 }

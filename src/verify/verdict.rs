@@ -1,25 +1,9 @@
 //! The outcome of a verification: what was checked and what does not hold.
 
-use super::{Domain, Violation};
-use crate::mesh::VertexId;
+use crate::verify::options::Domain;
+use crate::verify::violation::Violation;
 use std::collections::BTreeMap;
 use std::fmt;
-
-/// A vertex and where it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    /// Its index in the mesh (in the PLC where the text says so, or where it is in no tetrahedron).
-    pub id: VertexId,
-    /// Its coordinates.
-    pub at: [f64; 3],
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.at;
-        write!(f, "v{} ({x}, {y}, {z})", self.id.0)
-    }
-}
 
 /// What was counted on the way. Every exception that a check grants has its own count.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -84,8 +68,8 @@ pub struct Counts {
     pub domain: Domain,
     /// The sum of the volumes of the tetrahedra.
     pub volume: f64,
-    /// Signs of determinants that doubles did not decide, so that integers had to. (Sums of areas and volumes, and distances
-    /// that are compared with the tolerance, are always exact and not counted.)
+    /// Signs of determinants that doubles did not decide, so that integers had to. (Sums of areas and volumes, and
+    /// distances that are compared with the tolerance, are always exact and not counted.)
     pub exact_signs: usize,
 }
 
@@ -111,7 +95,7 @@ impl Counts {
 pub struct Verdict {
     /// What was checked.
     pub counts: Counts,
-    /// What does not hold: of each kind the first [`super::VerifyOptions::cap`] ones.
+    /// What does not hold: of each kind the first [`super::options::VerifyOptions::cap`] ones.
     pub violations: Vec<Violation>,
     /// How many violations there are of each kind ([`Violation::kind`]), whether listed or not.
     pub totals: BTreeMap<&'static str, usize>,
@@ -197,15 +181,15 @@ impl fmt::Display for Verdict {
 
 /// Violations and counts as the checks collect them.
 #[derive(Clone)]
-pub(super) struct Findings {
-    pub(super) counts: Counts,
-    pub(super) violations: Vec<Violation>,
+pub(crate) struct Findings {
+    pub(crate) counts: Counts,
+    pub(crate) violations: Vec<Violation>,
     totals: BTreeMap<&'static str, usize>,
     cap: usize,
 }
 
 impl Findings {
-    pub(super) fn new(cap: usize) -> Findings {
+    pub(crate) fn new(cap: usize) -> Findings {
         Findings {
             counts: Counts::default(),
             violations: Vec::new(),
@@ -215,21 +199,21 @@ impl Findings {
     }
 
     /// Nothing found yet, with the same cap.
-    pub(super) fn trial(&self) -> Findings {
+    pub(crate) fn trial(&self) -> Findings {
         Findings::new(self.cap)
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.totals.is_empty()
     }
 
     /// Whether every face has one tetrahedron, or one on each side, as far as was checked.
-    pub(super) fn is_manifold(&self) -> bool {
+    pub(crate) fn is_manifold(&self) -> bool {
         let broken = ["crowded face", "same side"];
         !broken.iter().any(|kind| self.totals.contains_key(kind))
     }
 
-    pub(super) fn report(&mut self, violation: Violation) {
+    pub(crate) fn report(&mut self, violation: Violation) {
         let total = self.totals.entry(violation.kind()).or_insert(0);
         *total += 1;
         if *total <= self.cap {
@@ -238,7 +222,7 @@ impl Findings {
     }
 
     /// Appends what another thread found after this, with the same cap, about segments and facets.
-    pub(super) fn append(&mut self, next: Findings) {
+    pub(crate) fn append(&mut self, next: Findings) {
         self.counts.add(next.counts);
         let mut totals = self.totals.clone();
         for violation in next.violations {
@@ -253,7 +237,7 @@ impl Findings {
         }
     }
 
-    pub(super) fn verdict(self) -> Verdict {
+    pub(crate) fn verdict(self) -> Verdict {
         Verdict {
             counts: self.counts,
             violations: self.violations,

@@ -1,6 +1,6 @@
 //! What can be wrong with a mesh: one variant per claim, with the ids and coordinates that show it.
 
-use super::Place;
+use crate::verify::place::Place;
 use thiserror::Error;
 
 /// A claim that does not hold. Tetrahedra, facets and segments are named by their index in the mesh and in the PLC,
@@ -19,8 +19,11 @@ pub enum Violation {
         /// How many vertices there are.
         vertices: usize,
     },
-    /// There are more tetrahedra than [`MOST_TETS`](super::MOST_TETS).
-    #[error("{tets} tetrahedra; no more than {} can be verified", super::MOST_TETS)]
+    /// There are more tetrahedra than [`MOST_TETS`](super::options::MOST_TETS).
+    #[error(
+        "{tets} tetrahedra; no more than {} can be verified",
+        crate::verify::options::MOST_TETS
+    )]
     TooManyTets {
         /// How many.
         tets: usize,
@@ -35,8 +38,8 @@ pub enum Violation {
         /// The coordinates.
         at: [f64; 3],
     },
-    /// The exact position of a vertex is not between two vertices whose coordinates are doubles, is given twice, or is not
-    /// where the coordinates of the vertex are, up to rounding.
+    /// The exact position of a vertex is not between two vertices whose coordinates are doubles, is given twice, or
+    /// is not where the coordinates of the vertex are, up to rounding.
     #[error("vertex {vertex} is said to be exactly at {t} between {} and {}, which {reason}", .ends[0], .ends[1])]
     WrongPosition {
         /// The vertex.
@@ -103,7 +106,8 @@ pub enum Violation {
         tets: Vec<usize>,
     },
     /// Two tetrahedra lie on the same side of the face that they share.
-    #[error("tetrahedra {} and {} lie on the same side of the face {}, {}, {}", .tets[0], .tets[1], .face[0], .face[1], .face[2])]
+    #[error("tetrahedra {} and {} lie on the same side of the face {}, {}, {}",
+        .tets[0], .tets[1], .face[0], .face[1], .face[2])]
     SameSide {
         /// The face.
         face: [Place; 3],
@@ -133,7 +137,8 @@ pub enum Violation {
         facets: Vec<usize>,
     },
     /// The mesh faces in a facet do not have the boundary of the facet.
-    #[error("facets {facets:?} are not a union of mesh faces: {faces} faces meet at the edge {}–{}, not {expected}", .edge[0], .edge[1])]
+    #[error("facets {facets:?} are not a union of mesh faces: {faces} faces meet at the edge {}–{}, not {expected}",
+        .edge[0], .edge[1])]
     FacetNotCovered {
         /// The facet, or the coplanar facets that were merged.
         facets: Vec<usize>,
@@ -144,9 +149,10 @@ pub enum Violation {
         /// How many should have it.
         expected: usize,
     },
-    /// A facet is so far from flat that which parts of its plane it covers cannot be told: in the projection along a coordinate
-    /// axis that shows it best, an edge is a point, and others meet at an end of that edge.
-    #[error("facet {facet} is not flat: its edge {}–{} is upright, and what is inside cannot be told", .edge[0], .edge[1])]
+    /// A facet is so far from flat that which parts of its plane it covers cannot be told: in the projection along a
+    /// coordinate axis that shows it best, an edge is a point, and others meet at an end of that edge.
+    #[error("facet {facet} is not flat: its edge {}–{} is upright, and what is inside cannot be told",
+        .edge[0], .edge[1])]
     FacetUpright {
         /// The facet.
         facet: usize,
@@ -206,16 +212,18 @@ pub enum Violation {
         /// The edge.
         edge: [Place; 2],
     },
-    /// A connected part of the boundary has the signed volume zero, as no boundary of a solid and of a void has: it crosses
-    /// itself.
-    #[error("the boundary that face {}, {}, {} belongs to encloses as much as it leaves out: it crosses itself", .face[0], .face[1], .face[2])]
+    /// A connected part of the boundary has the signed volume zero, as no boundary of a solid and of a void has: it
+    /// crosses itself.
+    #[error("the boundary that face {}, {}, {} belongs to encloses as much as it leaves out: it crosses itself",
+        .face[0], .face[1], .face[2])]
     BoundaryWithoutVolume {
         /// One of its faces.
         face: [Place; 3],
     },
     /// A part of the domain that is enclosed by facets, and holds no hole point, has no tetrahedra.
     #[error(
-        "a part of volume {volume} with {faces} boundary faces, one at {at}, is enclosed by facets, has no hole point, and is not meshed"
+        "a part of volume {volume} with {faces} boundary faces, one at {at}, is enclosed by facets, has no hole point, \
+         and is not meshed"
     )]
     MissingPart {
         /// Its volume, islands included.
@@ -246,7 +254,8 @@ pub enum Violation {
         boundary: f64,
     },
     /// Two tetrahedra that share an unconstrained face have different region attributes.
-    #[error("tetrahedra {} and {} share an unconstrained face but have the attributes {} and {}", .tets[0], .tets[1], .attributes[0], .attributes[1])]
+    #[error("tetrahedra {} and {} share an unconstrained face but have the attributes {} and {}",
+        .tets[0], .tets[1], .attributes[0], .attributes[1])]
     RegionLeaks {
         /// The tetrahedra.
         tets: [usize; 2],
