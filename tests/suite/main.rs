@@ -1,6 +1,7 @@
 //! All integration tests, as one program: linking one takes a few seconds, linking one a file took most of the time.
 
 mod agreement;
+mod architecture;
 mod check;
 mod common;
 mod complex;
