@@ -15,6 +15,7 @@
 
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use crate::number::vector::cross;
 use crate::plc::orient3d;
 use arrayvec::ArrayVec;
 use rustc_hash::FxHashMap;
@@ -442,10 +443,6 @@ fn range_in_cell(corners: [Point; 3], cell: &Bounds, direction: Point) -> (f64, 
     let low = at.clone().fold(f64::INFINITY, f64::min);
     let high = at.fold(f64::NEG_INFINITY, f64::max);
     (low - wrong, high + wrong)
-}
-
-fn cross([a, b, c]: Point, [x, y, z]: Point) -> Point {
-    [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
 /// Whether one of the axes across an edge of the triangle and an edge of the box, or the normal of the triangle, certainly

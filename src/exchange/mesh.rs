@@ -3,7 +3,7 @@
 
 use super::Attributes;
 use crate::mesh::VertexId;
-use crate::predicate::Parameter;
+use crate::number::Parameter;
 
 /// A finished mesh: what `.node/.ele/.face/.edge` files contain.
 #[derive(Clone, Debug, Default, PartialEq)]

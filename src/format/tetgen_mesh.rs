@@ -22,7 +22,7 @@ use super::vertices::Vertices;
 use super::{MeshFileError, MeshLineError, sibling};
 use crate::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 use crate::mesh::VertexId;
-use crate::predicate::Parameter;
+use crate::number::Parameter;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;

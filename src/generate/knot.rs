@@ -3,6 +3,7 @@
 use super::draft::{Draft, along};
 use super::draw::{Draw, turn};
 use crate::exchange::Plc;
+use crate::number::vector::cross;
 
 /// How often a knot goes around the axis of its torus, and around the torus' core; and the radius of its tube, less than
 /// half the distance of its strands and less than its radius of curvature.
@@ -63,14 +64,6 @@ pub(super) fn knot(draw: &mut Draw, size: usize) -> Plc {
         these = those;
     }
     draft.finish()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 fn unit(a: [f64; 3]) -> [f64; 3] {

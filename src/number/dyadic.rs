@@ -1,6 +1,7 @@
 //! Dyadic numbers m·2^e: the ring that the doubles generate. Sums, differences and products are exact; there is no
 //! division, hence no gcd, which makes it several times faster than a rational.
 
+use super::bits::parts;
 use super::{Exact, Number, Sign};
 use dashu_int::IBig;
 use std::cmp::Ordering;
@@ -151,20 +152,12 @@ impl Number for Dyadic {
         if x == 0.0 {
             return Dyadic::ZERO;
         }
-        let bits = x.to_bits();
-        let biased = ((bits >> 52) & 0x7ff) as i64;
-        let fraction = (bits & ((1 << 52) - 1)) as i64;
-        // A subnormal (biased exponent 0) has no hidden bit and the exponent of the smallest normal number.
-        let (magnitude, exponent) = if biased == 0 {
-            (fraction, -1074)
-        } else {
-            (fraction | 1 << 52, biased - 1075)
-        };
+        let (magnitude, exponent) = parts(x);
         let zeros = magnitude.trailing_zeros();
-        let magnitude = magnitude >> zeros;
+        let magnitude = (magnitude >> zeros) as i64;
         Dyadic {
             mantissa: IBig::from(if x < 0.0 { -magnitude } else { magnitude }),
-            exponent: exponent + i64::from(zeros),
+            exponent: i64::from(exponent) + i64::from(zeros),
         }
     }
 

@@ -2,6 +2,7 @@
 //! allocation and without branches.
 
 use super::Sign;
+use super::bits::parts;
 
 /// An integer of `N` words in two's complement, the lowest first. Sums and differences wrap: it is for the caller to know
 /// that they fit.
@@ -18,13 +19,7 @@ impl<const N: usize> Integer<N> {
         if x == 0.0 {
             return Self::ZERO;
         }
-        let bits = x.to_bits();
-        let biased = ((bits >> 52) & 0x7ff) as i32;
-        let fraction = bits & ((1 << 52) - 1);
-        let (magnitude, exponent) = match biased {
-            0 => (fraction, -1074),
-            _ => (fraction | 1 << 52, biased - 1075),
-        };
+        let (magnitude, exponent) = parts(x);
         let mut words = [0; N];
         if exponent < grid {
             // The bits below the grid are zeros.

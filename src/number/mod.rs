@@ -16,18 +16,23 @@
 //! Source of the design: Shewchuk 1997 (adaptive predicates), Burnikel, Funke & Seel 2001 (running error bounds).
 
 mod approx;
+pub(crate) mod bits;
+mod decide;
 mod dyadic;
 mod float;
 mod integer;
+mod parameter;
 mod rational;
 mod sign;
-mod vector;
+pub(crate) mod vector;
 mod wide;
 
 pub use approx::Approx;
+pub(crate) use decide::{Polynomial, decide};
 pub use dyadic::Dyadic;
 pub use float::Float;
 pub use integer::Integer;
+pub use parameter::Parameter;
 pub use sign::Sign;
 pub use vector::Vec3;
 pub use wide::{Bits, UnknownBits, Wide, WidthTask};

@@ -1,9 +1,9 @@
-//! Vectors of three numbers.
+//! Vectors of three numbers, and the same operations on coordinates as they are stored, in doubles.
 
 use super::Number;
 
 /// A point or vector with three coordinates x, y, z.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Vec3<N>(pub [N; 3]);
 
 impl<N: Number> Vec3<N> {
@@ -40,4 +40,28 @@ impl<N: Number> Vec3<N> {
             ax.clone() * by - &(ay.clone() * bx),
         ])
     }
+}
+
+/// a − b, rounded.
+#[inline]
+pub(crate) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    Vec3(a).sub(&Vec3(b)).0
+}
+
+/// a·b, rounded.
+#[inline]
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    Vec3(a).dot(&Vec3(b))
+}
+
+/// a×b, rounded.
+#[inline]
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    Vec3(a).cross(&Vec3(b)).0
+}
+
+/// |a|², rounded.
+#[inline]
+pub(crate) fn square(a: [f64; 3]) -> f64 {
+    dot(a, a)
 }

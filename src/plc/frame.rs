@@ -5,6 +5,8 @@
 
 use super::plane::{collinear, orient3d};
 use crate::mesh::VertexId;
+use crate::number::bits::exponent;
+use crate::number::vector::{cross, minus, square};
 use crate::number::{Dyadic, Number, Vec3};
 use crate::predicate::formula;
 
@@ -29,10 +31,10 @@ pub(super) fn choose(points: &[[f64; 3]], vertices: &[VertexId]) -> Option<[Vert
     let unit = Unit::of(points, vertices);
     let scaled = vertices.iter().map(|v| unit.point(points[v.index()]));
     let at: Vec<[f64; 3]> = scaled.collect();
-    let a = farthest(&at, |p| length2(minus(p, at[0])));
-    let b = farthest(&at, |p| length2(minus(p, at[a])));
+    let a = farthest(&at, |p| square(minus(p, at[0])));
+    let b = farthest(&at, |p| square(minus(p, at[a])));
     let line = minus(at[b], at[a]);
-    let c = farthest(&at, |p| length2(cross(line, minus(p, at[a]))));
+    let c = farthest(&at, |p| square(cross(line, minus(p, at[a]))));
     let [a, b, c] = [vertices[a], vertices[b], vertices[c]];
     let is_frame = |frame: [VertexId; 3]| !collinear(frame.map(|v| points[v.index()]));
     if is_frame([a, b, c]) {
@@ -62,7 +64,7 @@ pub(super) fn flatness(
     }
     // Distances are taken after scaling by a power of two, so that they neither overflow nor underflow.
     let unit = Unit::of(points, vertices);
-    let exponent = exponent_of(unit.size);
+    let exponent = i64::from(exponent(unit.size));
     let scaled = |p: [f64; 3]| Vec3(p.map(|x| Dyadic::from_f64(x).shifted(-exponent)));
     let [a, b, c] = [a, b, c].map(scaled);
     let normal = b.sub(&a).cross(&c.sub(&a));
@@ -74,7 +76,7 @@ pub(super) fn flatness(
     let worst = outside[farthest(&outside, distance)];
     let found = distance(worst);
     let diagonal =
-        length2(unit.extent).sqrt() * Dyadic::from_f64(unit.size).shifted(1 - exponent).to_f64();
+        square(unit.extent).sqrt() * Dyadic::from_f64(unit.size).shifted(1 - exponent).to_f64();
     if found <= FLATNESS * diagonal {
         Flatness::NearlyFlat
     } else {
@@ -127,11 +129,6 @@ fn half_minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// The exponent of a positive normal double.
-fn exponent_of(x: f64) -> i64 {
-    ((x.to_bits() >> 52) & 0x7ff) as i64 - 1023
-}
-
 /// The place of the first item with the largest measure.
 fn farthest<T: Copy>(items: &[T], measure: impl Fn(T) -> f64) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
@@ -142,18 +139,6 @@ fn farthest<T: Copy>(items: &[T], measure: impl Fn(T) -> f64) -> usize {
         }
     }
     best.0
-}
-
-fn minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
-    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-}
-
-fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
-    [b * z - c * y, c * x - a * z, a * y - b * x]
-}
-
-fn length2([x, y, z]: [f64; 3]) -> f64 {
-    x * x + y * y + z * z
 }
 
 #[cfg(test)]

@@ -2,9 +2,9 @@
 //! the projected coordinates are input doubles and no rounding happens at all.
 
 use crate::mesh::VertexId;
-use crate::number::{Approx, Dyadic, Exact, Number, Sign};
-use crate::predicate::coordinates;
+use crate::number::{Number, Polynomial, Sign, decide};
 pub(crate) use crate::predicate::coordinates::{collinear, orient3d};
+use crate::predicate::{coordinates, formula};
 
 /// A point of the projection plane.
 pub(crate) type Point = [f64; 2];
@@ -61,26 +61,27 @@ pub(crate) fn orient2d(a: Point, b: Point, c: Point) -> Sign {
 
 /// The sign of the area enclosed by a closed walk: Σ det[p_i − p_0, p_{i+1} − p_0].
 pub(crate) fn area_sign(walk: &[Point]) -> Sign {
-    fn value<N: Number>(walk: &[Point]) -> N {
-        let number = |p: &Point| p.map(N::from_f64);
-        let origin = number(&walk[0]);
-        let relative = |p: &Point| {
-            let [u, v] = number(p);
-            [u - &origin[0], v - &origin[1]]
-        };
-        let mut sum = N::from_f64(0.0);
-        for pair in walk.windows(2) {
-            let ([pu, pv], [qu, qv]) = (relative(&pair[0]), relative(&pair[1]));
-            sum = sum + &(pu * &qv - &(pv * &qu));
-        }
-        sum
-    }
     match walk {
         [] => Sign::Zero,
         &[a, b, c] => orient2d(a, b, c),
-        _ => value::<Approx>(walk)
-            .sign()
-            .unwrap_or_else(|| value::<Dyadic>(walk).exact_sign()),
+        _ => decide(&Area(walk)),
+    }
+}
+
+/// Twice the area enclosed by a closed walk.
+struct Area<'a>(&'a [Point]);
+
+impl Polynomial for Area<'_> {
+    fn value<N: Number>(&self) -> N {
+        let number = |p: &Point| p.map(N::from_f64);
+        let origin = number(&self.0[0]);
+        let corners = |pair: &[Point]| {
+            let [p, q] = [number(&pair[0]), number(&pair[1])];
+            formula::orient2d([&origin, &p, &q])
+        };
+        let zero = N::from_f64(0.0);
+        let triangles = self.0.windows(2).map(corners);
+        triangles.fold(zero, |sum, area| sum + &area)
     }
 }
 

@@ -13,6 +13,7 @@ use super::{Complex, FacetName, PlcError, Polygon};
 use crate::exchange::{Plc, Segment};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use crate::number::bits::{exponent, power_of_two};
 use rustc_hash::{FxHashMap, FxHashSet};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
@@ -145,8 +146,7 @@ fn inner_triangles(plane: &Projected, polygon: &Polygon, sign: Sign) -> Option<V
 
 /// The largest power of two that is at most x, for x > 0.
 fn power_below(x: f64) -> f64 {
-    let exponent = ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-    2f64.powi(exponent.max(-1022))
+    power_of_two(exponent(x))
 }
 
 /// Whether the triangles have the polygon's edges as their boundary, and every other edge in both directions.

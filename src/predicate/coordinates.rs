@@ -59,10 +59,7 @@ fn orient2d_exact([a, b, c]: [[f64; 2]; 3]) -> Sign {
         let on = |p| on_grid(p, grid);
         integers::orient2d::<2, 4>([on(p), on(q), on(s)])
     } else {
-        let [a, b, c] = [a, b, c].map(|p| p.map(Dyadic::from_f64));
-        let minus = |p: &[Dyadic; 2], k: usize| p[k].clone() - &a[k];
-        let value = minus(&b, 0) * &minus(&c, 1) - &(minus(&b, 1) * &minus(&c, 0));
-        value.exact_sign()
+        formula::orient2d([a, b, c].map(|p| p.map(Dyadic::from_f64)).each_ref()).exact_sign()
     }
 }
 
@@ -79,10 +76,7 @@ pub(crate) fn collinear([a, b, c]: [[f64; 3]; 3]) -> bool {
 pub(crate) fn dot2d([a, b, c]: [[f64; 2]; 3]) -> Sign {
     let (l, r) = ((b[0] - a[0]) * (c[0] - a[0]), (b[1] - a[1]) * (c[1] - a[1]));
     sign_of_sum(l, r).unwrap_or_else(|| {
-        let [a, b, c] = [a, b, c].map(|p| p.map(Dyadic::from_f64));
-        let minus = |p: &[Dyadic; 2], k: usize| p[k].clone() - &a[k];
-        let value = minus(&b, 0) * &minus(&c, 0) + &(minus(&b, 1) * &minus(&c, 1));
-        value.exact_sign()
+        formula::dot2d([a, b, c].map(|p| p.map(Dyadic::from_f64)).each_ref()).exact_sign()
     })
 }
 

@@ -25,9 +25,9 @@
 use super::pairs;
 use super::range::Range;
 use super::segment_point::{SegmentPoint, between, rounded_between};
-use super::{Parameter, PointStore, Steiner, formula};
+use super::{PointStore, Steiner, formula};
 use crate::mesh::VertexId;
-use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
+use crate::number::{Approx, Dyadic, Exact, Number, Parameter, Sign, Vec3};
 
 /// Points with finite double coordinates; Steiner points may have exact ones that are no doubles.
 #[derive(Clone, Debug, Default)]

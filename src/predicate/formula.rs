@@ -81,6 +81,38 @@ impl<N: Number> Lifted<N> {
     }
 }
 
+/// det[b−a, c−a], twice the signed area of abc: positive iff abc turns counterclockwise.
+#[inline]
+pub fn orient2d<N: Number>([a, b, c]: [&[N; 2]; 3]) -> N {
+    let [bx, by] = relative(b, a);
+    let [cx, cy] = relative(c, a);
+    bx * &cy - &(by * &cx)
+}
+
+/// (b−a)·(c−a).
+#[inline]
+pub fn dot2d<N: Number>([a, b, c]: [&[N; 2]; 3]) -> N {
+    let [bx, by] = relative(b, a);
+    let [cx, cy] = relative(c, a);
+    bx * &cx + &(by * &cy)
+}
+
+/// Positive iff d is inside the circumcircle of a counterclockwise abc.
+///
+/// This is the determinant with rows (p − d, |p − d|²) for p = a, b, c, expanded along its last column.
+#[inline]
+pub fn incircle<N: Number>([a, b, c, d]: [&[N; 2]; 4]) -> N {
+    let (a, b, c) = (relative(a, d), relative(b, d), relative(c, d));
+    let lift = |[x, y]: &[N; 2]| x.clone() * x + &(y.clone() * y);
+    let minor = |[px, py]: &[N; 2], [qx, qy]: &[N; 2]| px.clone() * qy - &(py.clone() * qx);
+    lift(&a) * &minor(&b, &c) + &(lift(&b) * &minor(&c, &a)) + &(lift(&c) * &minor(&a, &b))
+}
+
+#[inline(always)]
+fn relative<N: Number>([x, y]: &[N; 2], [ox, oy]: &[N; 2]) -> [N; 2] {
+    [x.clone() - ox, y.clone() - oy]
+}
+
 /// det[b−a, c−a, d−a], six times the signed volume of abcd.
 #[inline]
 pub fn orient3d<N: Number>([a, b, c, d]: [&Vec3<N>; 4]) -> N {
@@ -141,6 +173,22 @@ mod tests {
     fn orientation_is_the_crates() {
         let p = points([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]);
         assert_eq!(orient3d(p.each_ref()).exact_sign(), Sign::Positive);
+    }
+
+    #[test]
+    fn formulas_of_the_plane() {
+        let sign = |number: Dyadic| number.exact_sign();
+        let plane = |x: i32, y: i32| [x, y].map(|x| Dyadic::from_f64(f64::from(x)));
+        let [a, b, c] = [plane(0, 0), plane(2, 0), plane(0, 2)];
+        assert_eq!(sign(orient2d([&a, &b, &c])), Sign::Positive);
+        assert_eq!(sign(orient2d([&a, &c, &b])), Sign::Negative);
+        assert_eq!(sign(dot2d([&a, &b, &c])), Sign::Zero);
+        assert_eq!(sign(dot2d([&b, &a, &c])), Sign::Positive);
+        let at = |x, y| sign(incircle([&a, &b, &c, &plane(x, y)]));
+        assert_eq!(
+            [at(1, 1), at(2, 2), at(3, 2), at(-1, -1)],
+            [Sign::Positive, Sign::Zero, Sign::Negative, Sign::Negative]
+        );
     }
 
     #[test]

@@ -5,15 +5,16 @@
 //! below 2^(64D−2), 2×2 minors below 2^(128D−3), 3×3 minors below 3·2^(192D−5) and the sum of four of them below 2^(192D−2),
 //! lifts below 3·2^(128D−4), and the lifted determinant below 36·2^(320D−9): all fit 2D, 3D, 2D and 5D words.
 
+use crate::number::bits::{exponent, lowest_bit};
 use crate::number::{Integer, Sign};
 
 /// The finest grid on which all of these coordinates lie, and how many bits the largest of them has in its units.
 pub(super) fn grid_and_bits(points: &[[f64; 3]]) -> (i32, i32) {
     let (mut grid, mut top) = (i32::MAX, i32::MIN);
-    for &x in points.iter().flatten().filter(|&&x| x != 0.0) {
-        let low = lowest_bit(x);
+    for &x in points.iter().flatten() {
+        let Some(low) = lowest_bit(x) else { continue };
         grid = grid.min(low);
-        top = top.max(exponent(x));
+        top = top.max(exponent(x) + 1);
     }
     if grid == i32::MAX {
         (0, 0)
@@ -25,24 +26,6 @@ pub(super) fn grid_and_bits(points: &[[f64; 3]]) -> (i32, i32) {
 /// The bits of a coordinate for which D words are enough.
 pub(super) const fn most_bits(words: usize) -> i32 {
     64 * words as i32 - 3
-}
-
-/// e with 2^(e−1) ≤ |x| < 2^e, or larger where x is subnormal.
-fn exponent(x: f64) -> i32 {
-    let biased = ((x.to_bits() >> 52) & 0x7ff) as i32;
-    biased.max(1) - 1022
-}
-
-/// The exponent of the lowest set bit of a non-zero finite double.
-pub(super) fn lowest_bit(x: f64) -> i32 {
-    let bits = x.to_bits();
-    let biased = ((bits >> 52) & 0x7ff) as i32;
-    let fraction = bits & ((1 << 52) - 1);
-    if biased == 0 {
-        -1074 + fraction.trailing_zeros() as i32
-    } else {
-        biased - 1075 + (fraction | 1 << 52).trailing_zeros() as i32
-    }
 }
 
 type Vector<const D: usize> = [Integer<D>; 3];

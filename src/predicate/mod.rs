@@ -18,5 +18,5 @@ mod store;
 pub use double_points::DoublePoints;
 pub use naive::NaivePoints;
 pub use perturbation::perturbed_sign;
-pub use segment_point::{Parameter, Steiner};
+pub use segment_point::Steiner;
 pub use store::PointStore;

@@ -1,9 +1,9 @@
 //! A view of points whose predicates are rounded and trusted: what a program without exact arithmetic would see. For
 //! experiments alone; what is built with it must be judged exactly afterwards.
 
-use super::{Parameter, PointStore, formula};
+use super::{PointStore, formula};
 use crate::mesh::VertexId;
-use crate::number::{Number, Sign, Vec3};
+use crate::number::{Number, Parameter, Sign, Vec3};
 
 /// The points of a store, seen through a number type N: every sign is that of the formula evaluated in N, and may be
 /// wrong. A sign that N does not know (NaN) is given as zero, and so is that of points one of which is repeated. No weight

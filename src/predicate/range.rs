@@ -1,6 +1,7 @@
 //! What is known of all coordinates that are doubles, and what follows for the error of the determinants.
 
-use super::integers::{lowest_bit, most_bits};
+use super::integers::most_bits;
+use crate::number::bits::{lowest_bit, power_of_two};
 
 /// The grid that all coordinates lie on, their largest magnitude and their bounding box.
 #[derive(Clone, Copy, Debug)]
@@ -79,8 +80,7 @@ impl Range {
                 self.high[i] = x;
                 changed = true;
             }
-            if x != 0.0 {
-                let grid = lowest_bit(x);
+            if let Some(grid) = lowest_bit(x) {
                 changed |= grid < self.grid || x.abs() > self.largest;
                 self.grid = self.grid.min(grid);
                 self.largest = self.largest.max(x.abs());
@@ -107,14 +107,5 @@ impl Range {
             true => INSPHERE_BOUND * INSPHERE_BOUND,
             false => f64::INFINITY,
         };
-    }
-}
-
-/// 2^k if that is a normal double, else 0.
-fn power_of_two(k: i32) -> f64 {
-    if (-1022..=1023).contains(&k) {
-        f64::from_bits(((k + 1023) as u64) << 52)
-    } else {
-        0.0
     }
 }

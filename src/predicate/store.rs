@@ -1,8 +1,8 @@
 //! Where the algorithms get their signs.
 
-use super::{Parameter, coordinates, formula, perturbed_sign};
+use super::{coordinates, formula, perturbed_sign};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
+use crate::number::{Dyadic, Exact, Number, Parameter, Sign, Vec3};
 
 /// A growing list of points that answers geometric questions exactly.
 ///

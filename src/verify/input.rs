@@ -4,12 +4,12 @@
 use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
 use crate::mesh::VertexId;
+use crate::number::vector::{cross, dot, minus};
 use crate::number::{Dyadic, Vec3};
 use crate::threads;
 use crate::verify::lookup::places::Places;
 use crate::verify::lookup::tables::sorted2;
 use crate::verify::signs::points::Points;
-use crate::verify::signs::vector::{cross, dot, minus};
 use rustc_hash::FxHashMap;
 
 /// Fewer elements are one thread's work.

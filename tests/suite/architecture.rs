@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of the crate, lowest first.
-const ROOMS: &str = "machine threads clock number mesh predicate exchange kinetic delaunay plc error recover update report \
+const ROOMS: &str = "machine threads clock number mesh exchange predicate kinetic delaunay plc error recover update report \
                      check cdt format generate verify cli lib main";
 
 /// Rooms with rooms of their own, lowest first.

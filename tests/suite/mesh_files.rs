@@ -6,7 +6,7 @@ use tempfile::TempDir;
 use tetflip::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 use tetflip::format::{MeshFileError, MeshLineError, UnwritableMesh, read_mesh, write_mesh};
 use tetflip::mesh::VertexId;
-use tetflip::predicate::Parameter;
+use tetflip::number::Parameter;
 
 /// Any finite double: every exponent, subnormal, both zeros, and short decimals.
 fn finite() -> impl Strategy<Value = f64> {

@@ -2,8 +2,8 @@
 
 use super::figure::Figure;
 use super::plane::Plane;
-use super::steiner::{cross, minus, square};
 use crate::mesh::{Groups, VertexId};
+use crate::number::vector::{cross, minus, square};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
 

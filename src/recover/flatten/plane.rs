@@ -4,9 +4,9 @@
 //! wherever the polygon is nearly flat. The projection is viewed from the left side of the polygon.
 
 use crate::mesh::VertexId;
-use crate::number::{Approx, Dyadic, Exact, Number, Sign};
-use crate::predicate::PointStore;
+use crate::number::{Dyadic, Number, Polynomial, Sign, Vec3, decide};
 use crate::predicate::coordinates::{dot2d, largest, normal_axis, orient2d};
+use crate::predicate::{PointStore, formula};
 use std::cmp::Ordering;
 
 /// The projection of a polygon.
@@ -34,10 +34,6 @@ impl<'a, P: PointStore> Plane<'a, P> {
         Plane { points, axes }
     }
 
-    fn decide(&self, approx: Approx, exact: impl FnOnce() -> Dyadic) -> Sign {
-        approx.sign().unwrap_or_else(|| exact().exact_sign())
-    }
-
     /// Where v is, if its coordinates are doubles.
     #[inline]
     fn at(&self, v: VertexId) -> Option<[f64; 2]> {
@@ -45,12 +41,9 @@ impl<'a, P: PointStore> Plane<'a, P> {
         Some([p[self.axes[0]], p[self.axes[1]]])
     }
 
-    fn difference<N: Number>(&self, a: VertexId, b: VertexId) -> [N; 2] {
-        let (a, b) = (
-            self.points.coordinates::<N>(a),
-            self.points.coordinates::<N>(b),
-        );
-        self.axes.map(|k| b.0[k].clone() - &a.0[k])
+    fn coordinates<N: Number>(&self, v: VertexId) -> [N; 2] {
+        let Vec3(p) = self.points.coordinates::<N>(v);
+        self.axes.map(|k| p[k].clone())
     }
 
     /// Positive iff abc turns left.
@@ -63,28 +56,15 @@ impl<'a, P: PointStore> Plane<'a, P> {
     }
 
     fn turn_of_any(&self, a: VertexId, b: VertexId, c: VertexId) -> Sign {
-        fn value<N: Number>([p, q]: [[N; 2]; 2]) -> N {
-            let [[px, py], [qx, qy]] = [p, q];
-            px * &qy - &(py * &qx)
-        }
-        let both = [self.difference::<Approx>(a, b), self.difference(a, c)];
-        self.decide(value(both), || {
-            value([self.difference(a, b), self.difference(a, c)])
-        })
+        decide(&Turn(self, [a, b, c]))
     }
 
     /// Whether b and c are in the same direction from a, rather than in opposite ones, for collinear points.
     pub(crate) fn ahead(&self, a: VertexId, b: VertexId, c: VertexId) -> bool {
-        fn value<N: Number>([[px, py], [qx, qy]]: [[N; 2]; 2]) -> N {
-            px * &qx + &(py * &qy)
-        }
-        if let (Some(a), Some(b), Some(c)) = (self.at(a), self.at(b), self.at(c)) {
-            return dot2d([a, b, c]).is_positive();
-        }
-        let both = [self.difference::<Approx>(a, b), self.difference(a, c)];
-        let sign = self.decide(value(both), || {
-            value([self.difference(a, b), self.difference(a, c)])
-        });
+        let sign = match (self.at(a), self.at(b), self.at(c)) {
+            (Some(a), Some(b), Some(c)) => dot2d([a, b, c]),
+            _ => decide(&Ahead(self, [a, b, c])),
+        };
         sign.is_positive()
     }
 
@@ -163,28 +143,15 @@ impl<'a, P: PointStore> Plane<'a, P> {
 
     /// The sign of the area to the left of a closed walk.
     pub(crate) fn area(&self, walk: &[[VertexId; 2]]) -> Sign {
-        fn value<N: Number, P: PointStore>(plane: &Plane<P>, walk: &[[VertexId; 2]]) -> N {
-            let origin = walk[0][0];
-            walk.iter().fold(N::from_f64(0.0), |sum, &[a, b]| {
-                let [px, py] = plane.difference::<N>(origin, a);
-                let [qx, qy] = plane.difference::<N>(origin, b);
-                sum + &(px * &qy - &(py * &qx))
-            })
-        }
         match *walk {
             [[a, b], [_, c], [_, d]] if d == a => self.turn(a, b, c),
-            _ => self.decide(value(self, walk), || value(self, walk)),
+            _ => decide(&Area(self, walk)),
         }
     }
 
     /// Whether v is inside a closed walk that does not pass through it.
     pub(crate) fn is_inside(&self, walk: &[[VertexId; 2]], v: VertexId) -> bool {
-        let above = |w: VertexId| {
-            let sign = self.decide(self.difference::<Approx>(v, w)[1], || {
-                self.difference::<Dyadic>(v, w)[1].clone()
-            });
-            sign.is_positive()
-        };
+        let above = |w: VertexId| decide(&Above(self, [v, w])).is_positive();
         let crossings = walk.iter().filter(|&&[a, b]| match (above(a), above(b)) {
             (false, true) => self.turn(a, b, v).is_positive(),
             (true, false) => self.turn(a, b, v).is_negative(),
@@ -201,5 +168,48 @@ impl<'a, P: PointStore> Plane<'a, P> {
     /// Rounded coordinates in the projection.
     pub(crate) fn rounded(&self, v: VertexId) -> [f64; 2] {
         self.project(self.points.rounded(v))
+    }
+}
+
+/// The orientation of abc in the projection.
+struct Turn<'a, P>(&'a Plane<'a, P>, [VertexId; 3]);
+
+impl<P: PointStore> Polynomial for Turn<'_, P> {
+    fn value<N: Number>(&self) -> N {
+        let corners = self.1.map(|v| self.0.coordinates::<N>(v));
+        formula::orient2d(corners.each_ref())
+    }
+}
+
+/// (b−a)·(c−a) in the projection.
+struct Ahead<'a, P>(&'a Plane<'a, P>, [VertexId; 3]);
+
+impl<P: PointStore> Polynomial for Ahead<'_, P> {
+    fn value<N: Number>(&self) -> N {
+        let points = self.1.map(|v| self.0.coordinates::<N>(v));
+        formula::dot2d(points.each_ref())
+    }
+}
+
+/// How far w is above v in the projection.
+struct Above<'a, P>(&'a Plane<'a, P>, [VertexId; 2]);
+
+impl<P: PointStore> Polynomial for Above<'_, P> {
+    fn value<N: Number>(&self) -> N {
+        let [[_, v], [_, w]] = self.1.map(|v| self.0.coordinates::<N>(v));
+        w - &v
+    }
+}
+
+/// Twice the area to the left of a closed walk in the projection.
+struct Area<'a, P>(&'a Plane<'a, P>, &'a [[VertexId; 2]]);
+
+impl<P: PointStore> Polynomial for Area<'_, P> {
+    fn value<N: Number>(&self) -> N {
+        let at = |v| self.0.coordinates::<N>(v);
+        let origin = at(self.1[0][0]);
+        self.1.iter().fold(N::from_f64(0.0), |sum, &[a, b]| {
+            sum + &formula::orient2d([&origin, &at(a), &at(b)])
+        })
     }
 }

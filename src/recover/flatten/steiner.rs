@@ -6,6 +6,7 @@
 use super::cells::Cell;
 use super::plane::Plane;
 use crate::mesh::VertexId;
+use crate::number::vector::{cross, dot, minus, square};
 use crate::predicate::PointStore;
 use crate::recover::segments::Request;
 
@@ -117,26 +118,6 @@ fn circumcenter(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Option<([f64; 3], f64)
 
 fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     crate::recover::segments::sight(p, a, b)
-}
-
-pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn square(a: [f64; 3]) -> f64 {
-    dot(a, a)
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 #[cfg(test)]

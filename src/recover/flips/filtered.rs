@@ -36,6 +36,7 @@ use super::motion::Motion;
 use super::time::{ExactTimes, FlipTimes, Quotient, Timed, Timing, Undecided, same_vertices};
 use crate::mesh::VertexId;
 use crate::number::Dyadic;
+use crate::number::bits::exponent;
 use crate::predicate::PointStore;
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -311,8 +312,7 @@ fn enclosure(n: &Bounded, d: &Bounded) -> (f64, f64) {
 
 /// A power of two that brings a normal number near 1.
 fn inverse_power(x: f64) -> f64 {
-    let exponent = ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-    2f64.powi((-exponent).clamp(-1000, 1000))
+    2f64.powi((-exponent(x)).clamp(-1000, 1000))
 }
 
 #[cfg(test)]

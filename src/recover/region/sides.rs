@@ -1,7 +1,7 @@
 //! On which side of a polygon a vertex lies (paper §3.2: left, right, or neither).
 
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
-use crate::number::{Approx, Dyadic, Exact, Number, Sign};
+use crate::number::{Number, Polynomial, Sign, decide};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
 use crate::recover::tables::Table;
@@ -108,18 +108,11 @@ impl<'a, P: PointStore> Sides<'a, P> {
     /// Whether one who walks from a to b on f, on its left side, and then to c, turns left: the sign of
     /// n·((b−a)×(c−a)) with the normal n of the frame.
     pub fn turns_left(&self, a: VertexId, b: VertexId, c: VertexId) -> bool {
-        let filtered = self.turn::<Approx>([a, b, c]).sign();
-        filtered
-            .unwrap_or_else(|| self.turn::<Dyadic>([a, b, c]).exact_sign())
-            .is_positive()
-    }
-
-    fn turn<N: Number>(&self, corner: [VertexId; 3]) -> N {
-        let normal = |[a, b, c]: [VertexId; 3]| {
-            let [a, b, c] = [a, b, c].map(|v| self.points.coordinates::<N>(v));
-            b.sub(&a).cross(&c.sub(&a))
+        let normals = NormalProduct {
+            points: self.points,
+            triangles: [self.frame, [a, b, c]],
         };
-        normal(self.frame).dot(&normal(corner))
+        decide(&normals).is_positive()
     }
 
     /// The point store.
@@ -206,6 +199,22 @@ impl<'a, P: PointStore> Sides<'a, P> {
     /// Whether t has vertices on both sides and is no ghost.
     pub fn crosses_tet(&self, mesh: &TetMesh, t: TetId) -> bool {
         !mesh.is_ghost(t) && self.crosses(&mesh.vertices(t))
+    }
+}
+
+/// The product of the normals of two triangles.
+struct NormalProduct<'a, P> {
+    points: &'a P,
+    triangles: [[VertexId; 3]; 2],
+}
+
+impl<P: PointStore> Polynomial for NormalProduct<'_, P> {
+    fn value<N: Number>(&self) -> N {
+        let [m, n] = self.triangles.map(|t| {
+            let [a, b, c] = t.map(|v| self.points.coordinates::<N>(v));
+            b.sub(&a).cross(&c.sub(&a))
+        });
+        m.dot(&n)
     }
 }
 

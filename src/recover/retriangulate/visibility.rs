@@ -9,7 +9,7 @@
 //! Complexity: linear in the number of walls.
 
 use crate::mesh::VertexId;
-use crate::number::{Approx, Dyadic, Exact, Number, Sign};
+use crate::number::{Number, Polynomial, Sign, decide};
 use crate::predicate::{PointStore, formula};
 
 /// Triangles that hide what is behind them, as closed sets. No two of them overlap.
@@ -84,20 +84,30 @@ impl<'a, P: PointStore> Sight<'a, P> {
             signs.contains(&Sign::Positive),
             signs.contains(&Sign::Negative),
         ) {
-            (true, true) => {
-                let filtered = self.centroid_sum::<Approx>(s, t).sign();
-                filtered.unwrap_or_else(|| self.centroid_sum::<Dyadic>(s, t).exact_sign())
-            }
+            (true, true) => decide(&CentroidSum {
+                points: self.points,
+                s,
+                t,
+            }),
             (true, false) => Sign::Positive,
             (false, true) => Sign::Negative,
             (false, false) => Sign::Zero,
         }
     }
+}
 
-    fn centroid_sum<N: Number>(&self, s: [VertexId; 3], t: [VertexId; 3]) -> N {
-        let [i, j, k] = t.map(|v| self.points.coordinates::<N>(v));
-        let [a, b, c] =
-            s.map(|v| formula::orient3d([&self.points.coordinates::<N>(v), &i, &j, &k]));
+/// Three times orient3d(p, i, j, k) for the centroid p of `s` and the vertices i, j, k of `t`.
+struct CentroidSum<'a, P> {
+    points: &'a P,
+    s: [VertexId; 3],
+    t: [VertexId; 3],
+}
+
+impl<P: PointStore> Polynomial for CentroidSum<'_, P> {
+    fn value<N: Number>(&self) -> N {
+        let at = |v| self.points.coordinates::<N>(v);
+        let [i, j, k] = self.t.map(at);
+        let [a, b, c] = self.s.map(|v| formula::orient3d([&at(v), &i, &j, &k]));
         a + &b + &c
     }
 }

@@ -12,10 +12,9 @@
 //! for each tetrahedron until it is replaced: most are looked at many times.
 
 use super::inner_edges::inner_edges;
-use super::obstruction::cross;
-use super::split::{dot, sub};
 use crate::machine::prefetch;
 use crate::mesh::{TetId, TetMesh, VertexId, any_infinite};
+use crate::number::vector::{cross, dot, minus};
 use crate::predicate::PointStore;
 
 /// An open interval; empty if its ends are not in order.
@@ -51,7 +50,7 @@ struct Line {
 impl Line {
     fn new<P: PointStore>(points: &P, [a, b]: [VertexId; 2]) -> Line {
         let [a, b] = [points.rounded(a), points.rounded(b)];
-        let along = sub(b, a);
+        let along = minus(b, a);
         let square = dot(along, along);
         Line {
             a,
@@ -230,9 +229,9 @@ impl Reaches {
     ) -> Span {
         let c = mesh.corner_of(t, VertexId::INFINITE);
         let [p, q, r] = mesh.facet(c).map(|v| points.rounded(v));
-        let normal = cross(sub(q, p), sub(r, p));
+        let normal = cross(minus(q, p), minus(r, p));
         let is_near = |x: [f64; 3]| {
-            let x = sub(x, p);
+            let x = minus(x, p);
             let height = dot(x, normal);
             height * height <= FLAT * FLAT * dot(x, x) * dot(normal, normal)
         };
@@ -252,7 +251,7 @@ fn circumsphere<P: PointStore>(points: &P, [o, p, q, r]: [VertexId; 4]) -> [f64;
         points.rounded(q),
         points.rounded(r),
     ];
-    let (e, f, g) = (sub(p, o), sub(q, o), sub(r, o));
+    let (e, f, g) = (minus(p, o), minus(q, o), minus(r, o));
     let (fg, ge, ef) = (cross(f, g), cross(g, e), cross(e, f));
     let (ee, ff, gg) = (dot(e, e), dot(f, f), dot(g, g));
     let gradient = |i: usize| ee * fg[i] + ff * ge[i] + gg * ef[i];
@@ -263,7 +262,7 @@ fn circumsphere<P: PointStore>(points: &P, [o, p, q, r]: [VertexId; 4]) -> [f64;
 /// For which u the point A + u(B − A) is in a sphere.
 #[inline]
 fn within(&[x, y, z, gx, gy, gz, volume]: &[f64; 7], line: &Line) -> Span {
-    let (x, d, gradient) = (sub(line.a, [x, y, z]), line.along, [gx, gy, gz]);
+    let (x, d, gradient) = (minus(line.a, [x, y, z]), line.along, [gx, gy, gz]);
     let square = volume * line.square;
     let linear = 2.0 * volume * dot(x, d) - dot(d, gradient);
     let constant = volume * dot(x, x) - dot(x, gradient);

@@ -8,9 +8,9 @@
 //!
 //! Linear time if few constraints are violated in turn, quadratic at worst.
 
-use super::split::{dot, sub};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use crate::number::vector::{cross, dot, minus};
 use crate::predicate::PointStore;
 
 /// Whether three of the vertices certainly obstruct the edge ab. If not, it may be obstructed or not.
@@ -43,10 +43,10 @@ type HalfPlane = ([f64; 2], f64);
 
 /// The half-planes in which the vertices allow centres, relative to the middle of ab.
 fn half_planes([a, b]: [[f64; 3]; 2], others: impl Iterator<Item = [f64; 3]>) -> Vec<HalfPlane> {
-    let along = sub(b, a);
+    let along = minus(b, a);
     let [u, v] = across(along);
     let half_plane = |p: [f64; 3]| {
-        let (pa, pb) = (sub(p, a), sub(p, b));
+        let (pa, pb) = (minus(p, a), minus(p, b));
         ([2.0 * dot(pa, u), 2.0 * dot(pa, v)], dot(pa, pb))
     };
     others.map(half_plane).collect()
@@ -64,14 +64,6 @@ fn across(d: [f64; 3]) -> [[f64; 3]; 2] {
 fn unit(u: [f64; 3]) -> [f64; 3] {
     let length = dot(u, u).sqrt();
     u.map(|x| x / length)
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// Three of the half-planes without a common point (one may be named twice), if there is no point in all.

@@ -5,6 +5,8 @@
 //! allows: with coordinates that have bits to spare (integers, single precision files) the point is then exactly on the
 //! line, and polygons stay flat.
 
+use crate::number::vector::{dot, minus, square};
+
 /// A subsegment of the segment pq and what is known around it.
 #[derive(Clone, Copy, Debug)]
 pub struct Subsegment {
@@ -100,8 +102,8 @@ fn projection(s: &Subsegment, reference: Option<Reference>) -> f64 {
         return middle;
     };
     let [p, q] = s.ends;
-    let along = sub(q, p);
-    let t = dot(sub(reference.point, p), along) / dot(along, along);
+    let along = minus(q, p);
+    let t = dot(minus(reference.point, p), along) / dot(along, along);
     let margin = MARGIN * (t1 - t0);
     if t0 + margin <= t && t <= t1 - margin {
         t
@@ -130,25 +132,14 @@ pub(super) fn fewest_bits(t: f64, slack: f64) -> f64 {
 /// The cosine-like measure by which the vertex p sees ab: smaller for larger angles, negative inside the diametral
 /// sphere.
 pub fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
-    let (u, v) = (sub(a, p), sub(b, p));
+    let (u, v) = (minus(a, p), minus(b, p));
     dot(u, v) / (dot(u, u) * dot(v, v)).sqrt()
-}
-
-#[inline]
-pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline]
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The distance of two points.
 #[inline]
 pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let d = sub(a, b);
-    dot(d, d).sqrt()
+    square(minus(a, b)).sqrt()
 }
 
 #[cfg(test)]

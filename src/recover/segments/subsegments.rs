@@ -6,8 +6,9 @@
 
 use super::segment_index::{SegmentIndex, key};
 use crate::mesh::VertexId;
+use crate::number::Parameter;
 use crate::plc::{Complex, Polygon};
-use crate::predicate::{Parameter, PointStore};
+use crate::predicate::PointStore;
 
 const ON_SEGMENT: &str = "this Steiner point is on a segment";
 

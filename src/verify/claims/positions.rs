@@ -6,8 +6,7 @@
 
 use crate::exchange::{ExactPosition, ExportedMesh};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Number, Vec3};
-use crate::predicate::Parameter;
+use crate::number::{Dyadic, Exact, Number, Parameter, Vec3};
 use crate::verify::place::Place;
 use crate::verify::signs::distance::ulp;
 use crate::verify::verdict::Findings;

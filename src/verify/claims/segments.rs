@@ -10,12 +10,12 @@
 //! leaves the domain from both of its ends, is outside of the part that was kept; everything else is missing.
 
 use crate::mesh::VertexId;
+use crate::number::vector::{cross, dot, minus};
 use crate::threads;
 use crate::verify::case::Case;
 use crate::verify::claims::listed::Listed;
 use crate::verify::lookup::area::Area;
 use crate::verify::lookup::tables::sorted2;
-use crate::verify::signs::vector::{cross, dot, minus};
 use crate::verify::verdict::Findings;
 use crate::verify::violation::Violation;
 use std::cmp::Ordering;

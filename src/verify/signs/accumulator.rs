@@ -4,6 +4,7 @@
 //! The number has a limb of 32 bits in each 64-bit word, so that 2³⁰ additions need no carry. A product is an integer
 //! of at most 159 bits times 2^e with e ≥ 3·(−1074), and below 2^(3·1024).
 
+use crate::number::bits::parts;
 use crate::number::{Dyadic, Number, Sign};
 use std::ops::Range;
 
@@ -29,16 +30,6 @@ pub(crate) struct Accumulator {
     additions: u32,
 }
 
-/// |x| = mantissa·2^exponent.
-fn split(x: f64) -> (u64, i64) {
-    let bits = x.to_bits();
-    let fraction = bits & ((1 << 52) - 1);
-    match (bits >> 52 & 0x7ff) as i64 {
-        0 => (fraction, -1074),
-        biased => (fraction | 1 << 52, biased - 1075),
-    }
-}
-
 impl Accumulator {
     /// Zero.
     pub(crate) fn new() -> Accumulator {
@@ -51,7 +42,7 @@ impl Accumulator {
 
     /// Adds xyz.
     pub(crate) fn add(&mut self, [x, y, z]: [f64; 3]) {
-        let ((mx, ex), (my, ey), (mz, ez)) = (split(x), split(y), split(z));
+        let ((mx, ex), (my, ey), (mz, ez)) = (parts(x), parts(y), parts(z));
         if mx == 0 || my == 0 || mz == 0 {
             return;
         }
@@ -60,7 +51,7 @@ impl Accumulator {
         }
         self.additions += 1;
         let negative = (x < 0.0) ^ (y < 0.0) ^ (z < 0.0);
-        let place = (ex + ey + ez - LOWEST) as usize;
+        let place = (i64::from(ex + ey + ez) - LOWEST) as usize;
         let (limb, shift) = (place / 32, place % 32);
         // 106 bits times 53 + 31 bits.
         let xy = u128::from(mx) * u128::from(my);

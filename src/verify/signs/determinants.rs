@@ -6,13 +6,13 @@
 //! signs that needed integers are counted.
 
 use crate::mesh::VertexId;
+use crate::number::vector::minus;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::formula;
 use crate::verify::signs::filter::{self, Permanent};
 use crate::verify::signs::fixed;
 use crate::verify::signs::formulas::{Insphere, Orient, Side};
 use crate::verify::signs::points::Points;
-use crate::verify::signs::vector::minus;
 use crate::verify::signs::words;
 use arrayvec::ArrayVec;
 

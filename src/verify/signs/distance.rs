@@ -1,9 +1,9 @@
 //! Distances of points from lines and planes, compared exactly with a tolerance.
 
 use crate::mesh::VertexId;
+use crate::number::vector::{cross, dot, minus};
 use crate::number::{Dyadic, Exact, Number};
 use crate::verify::signs::points::Points;
-use crate::verify::signs::vector::{cross, dot, minus};
 
 /// Squares of lengths for which the distances below neither overflow nor lose anything that counts to underflow.
 const SQUARES: std::ops::Range<f64> = 1e-90..1e90;

@@ -38,7 +38,7 @@
 //! by less than 16u, and we add 1/16 of it.)
 
 use crate::number::Sign;
-use crate::verify::signs::vector::{dot, minus};
+use crate::number::vector::{dot, minus};
 
 /// u = 2⁻⁵³.
 const HALF_ULP: f64 = f64::EPSILON / 2.0;

@@ -4,6 +4,7 @@
 //! absolute value is below 2^(64·W − 1) is right. [`Formula`]s know how large theirs can get.
 
 use crate::mesh::VertexId;
+use crate::number::bits::parts;
 use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
 use crate::verify::signs::points::Points;
 use arrayvec::ArrayVec;
@@ -35,14 +36,7 @@ impl Scaled {
 
     /// A finite double.
     pub(crate) fn from_f64(x: f64) -> Scaled {
-        let bits = x.to_bits();
-        let biased = (bits >> 52 & 0x7ff) as i64;
-        let fraction = bits & ((1 << 52) - 1);
-        // A subnormal has no hidden bit and the exponent of the smallest normal number.
-        let (magnitude, exponent) = match biased {
-            0 => (fraction, -1074),
-            _ => (fraction | 1 << 52, biased - 1075),
-        };
+        let (magnitude, exponent) = parts(x);
         let zeros = if magnitude == 0 {
             0
         } else {
@@ -51,7 +45,7 @@ impl Scaled {
         Scaled {
             negative: x < 0.0,
             words: [magnitude >> zeros, 0, 0, 0],
-            exponent: exponent + i64::from(zeros),
+            exponent: i64::from(exponent) + i64::from(zeros),
         }
     }
 

@@ -51,10 +51,10 @@ impl Formula for Side2d {
     const DEGREE: u32 = 2;
     const GROWTH: u32 = 6;
     fn value<N: Number>(&self, p: &[Vec3<N>]) -> N {
-        let from = |q: &Vec3<N>, i: usize| q.0[self.axes[i]].clone() - &p[0].0[self.axes[i]];
-        let along = [from(&p[1], 0), from(&p[1], 1)];
+        let at = |q: &Vec3<N>| self.axes.map(|k| q.0[k].clone());
+        let [a, b] = [at(&p[0]), at(&p[1])];
         p[2..].iter().fold(N::from_f64(0.0), |sum, q| {
-            sum + &(along[0].clone() * &from(q, 1)) - &(along[1].clone() * &from(q, 0))
+            sum + &formula::orient2d([&a, &b, &at(q)])
         })
     }
 }

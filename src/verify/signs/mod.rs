@@ -15,5 +15,4 @@ pub(crate) mod points;
 pub(crate) mod ray;
 pub(crate) mod sums;
 pub(crate) mod tally;
-pub(crate) mod vector;
 pub(crate) mod words;

@@ -1,12 +1,12 @@
 //! Exact signs in the plane of two axes, and along one.
 
 use crate::mesh::VertexId;
+use crate::number::vector::minus;
 use crate::number::{Dyadic, Sign};
 use crate::verify::signs::filter::{self, Permanent};
 use crate::verify::signs::fixed;
 use crate::verify::signs::formulas::{Compare, Side2d};
 use crate::verify::signs::points::Points;
-use crate::verify::signs::vector::minus;
 use crate::verify::signs::words::{self, Cell};
 use arrayvec::ArrayVec;
 use std::cmp::Ordering;

@@ -2,6 +2,7 @@
 
 use crate::machine::prefetch;
 use crate::mesh::VertexId;
+use crate::number::bits::lowest_bit;
 use crate::number::{Approx, Dyadic, Exact, Number, Sign, Vec3};
 use crate::predicate::formula;
 use crate::threads;
@@ -35,17 +36,10 @@ const FEW: usize = 1 << 15;
 /// Below all exponents.
 const ELSEWHERE: i16 = i16::MIN;
 
-/// The greatest k such that a number is a multiple of 2^k; above all of them for zero. (Written here, too, as the
-/// verifier takes no decision over from the construction.)
+/// The greatest k such that a number is a multiple of 2^k; above all of them for zero.
 #[inline(always)]
 fn grain(x: f64) -> i16 {
-    let bits = x.to_bits();
-    let fraction = bits & ((1 << 52) - 1);
-    match (bits >> 52 & 0x7ff) as i16 {
-        0 if fraction == 0 => i16::MAX,
-        0 => -1074 + fraction.trailing_zeros() as i16,
-        biased => biased - 1075 + (fraction | 1 << 52).trailing_zeros() as i16,
-    }
+    lowest_bit(x).map_or(i16::MAX, |k| k as i16)
 }
 
 /// Where a point is exactly.
