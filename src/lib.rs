@@ -38,6 +38,8 @@ pub mod error;
 pub mod exchange;
 pub mod format;
 pub mod generate;
+#[doc(hidden)]
+pub mod lab;
 #[allow(unsafe_code)]
 mod machine;
 pub mod mesh;

@@ -1,28 +1,33 @@
 //! Runs the experiments, each in a process of its own, so that none takes down or warms up another, and tells how far it is.
 
 use clap::{Parser, Subcommand};
-use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
-use tetflip_experiments::expectation;
-use tetflip_experiments::experiment::{ALL, Context, Experiment};
-use tetflip_experiments::family::Member;
-use tetflip_experiments::ledger::{Entry, Ledger};
-use tetflip_experiments::record::{Machine, Results};
-use tetflip_experiments::steiner::rival::Rival;
-use tetflip_experiments::{flip_order, paper, report, rivals, scaling, threads};
+use tetflip::lab::Shard;
+use tetflip::recover::polygons::Times;
+use tetflip_experiments::families::Member;
+use tetflip_experiments::frame::ledger::{Entry, Ledger};
+use tetflip_experiments::frame::machine::Machine;
+use tetflip_experiments::frame::program::Program;
+use tetflip_experiments::frame::record::Results;
+use tetflip_experiments::frame::{About, Context, Failed};
+use tetflip_experiments::measure::threads;
+use tetflip_experiments::questions::{flip_order, scaling};
+use tetflip_experiments::registry::ALL;
+use tetflip_experiments::rivals::{ours, process};
+use tetflip_experiments::{page, paper};
 
 /// The experiments of tetflip: CSV files and plots in results/.
 ///
 /// What has succeeded with the very same sources is not run again, so that an interrupted run can be resumed.
 #[derive(Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
-struct Program {
+struct Arguments {
     #[command(subcommand)]
     command: Option<Verb>,
     #[command(flatten)]
-    run: Arguments,
+    run: Run,
 }
 
 #[derive(Subcommand)]
@@ -35,7 +40,7 @@ enum Verb {
         input: Member,
         /// The number type of the flip times.
         #[arg(long, default_value = "f64")]
-        times: String,
+        times: Times,
         /// Writes the PLC to this file, too.
         #[arg(long, value_name = "FILE.poly")]
         write: Option<PathBuf>,
@@ -82,7 +87,7 @@ enum Verb {
 }
 
 #[derive(Parser)]
-struct Arguments {
+struct Run {
     /// The same questions in seconds instead of minutes.
     #[arg(long)]
     quick: bool,
@@ -106,21 +111,27 @@ struct Arguments {
     python: String,
     /// More programs that take TetGen's switches and files.
     #[arg(long, value_name = "NAME=PROGRAM[:SWITCHES]")]
-    rival: Vec<Rival>,
+    rival: Vec<Program>,
     /// How long another program may take for one model.
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     limit: u64,
+    /// Only part I of N of the inputs, of experiments that can be divided among machines.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
     /// Run this experiment in this process.
     #[arg(long, hide = true, value_name = "NAME", value_parser = names())]
     here: Option<String>,
 }
 
 fn names() -> clap::builder::PossibleValuesParser {
-    ALL.iter().map(|e| e.name).collect::<Vec<_>>().into()
+    ALL.iter()
+        .map(|e| e.about().name)
+        .collect::<Vec<_>>()
+        .into()
 }
 
 fn main() -> ExitCode {
-    let Program { command, run } = Program::parse();
+    let Arguments { command, run } = Arguments::parse();
     let number = match &command {
         Some(Verb::Contestant { threads, .. }) => *threads,
         _ => 1,
@@ -139,22 +150,20 @@ fn main() -> ExitCode {
             input,
             times,
             write,
-        }) => replay(input, &times, write.as_deref()),
+        }) => replay(input, times, write.as_deref()),
         Some(Verb::Paper {
             results,
             output,
             check,
         }) => write_paper(&results, &output, check),
         Some(Verb::Report { results, output }) => make_report(&results, output),
-        Some(Verb::Contestant { what, input, .. }) => {
-            rivals::take_part(&what, &input).map(|()| true)
-        }
+        Some(Verb::Contestant { what, input, .. }) => ours::take_part(&what, &input).map(|()| true),
         Some(Verb::Scale { what, size }) => scaling::take_part(&what, size).map(|()| true),
         Some(Verb::Limited {
             seconds,
             program,
             arguments,
-        }) => rivals::limited(seconds, &program, &arguments).map_err(Into::into),
+        }) => process::limited(seconds, &program, &arguments).map_err(Into::into),
         None => match run.here.clone() {
             Some(name) => run_here(&name, run),
             None => run_all(&run),
@@ -171,23 +180,26 @@ fn main() -> ExitCode {
 }
 
 fn list() {
-    for e in &ALL {
-        println!("{:<16} {:>4} s  {}", e.name, e.seconds, e.question);
+    for About {
+        name,
+        question,
+        seconds,
+    } in ALL.map(|e| e.about())
+    {
+        println!("{name:<16} {seconds:>4} s  {question}");
     }
 }
 
-fn replay(input: Member, times: &str, write: Option<&Path>) -> Result<bool, Box<dyn Error>> {
-    let number = flip_order::plan::number_type(times)
-        .ok_or_else(|| format!("unknown number type `{times}`"))?;
+fn replay(input: Member, times: Times, write: Option<&Path>) -> Result<bool, Failed> {
     if let Some(path) = write {
         tetflip::format::write_poly(path, &input.prepare().plc)?;
     }
-    print!("{}", flip_order::replay::replay(input, number));
+    print!("{}", flip_order::replay::replay(input, times));
     Ok(true)
 }
 
 /// Whether the files are up to date, with `check`, and the sentences of the paper true.
-fn write_paper(results: &Path, output: &Path, check: bool) -> Result<bool, Box<dyn Error>> {
+fn write_paper(results: &Path, output: &Path, check: bool) -> Result<bool, Failed> {
     let generated = paper::generate(results)?;
     let mut good = true;
     if check {
@@ -206,13 +218,13 @@ fn write_paper(results: &Path, output: &Path, check: bool) -> Result<bool, Box<d
     Ok(good)
 }
 
-fn make_report(results: &Path, output: Option<PathBuf>) -> Result<bool, Box<dyn Error>> {
-    let path = report::write(results, output)?;
+fn make_report(results: &Path, output: Option<PathBuf>) -> Result<bool, Failed> {
+    let path = page::write(results, output)?;
     println!("{}", path.display());
     Ok(true)
 }
 
-impl Arguments {
+impl Run {
     fn directory(&self) -> PathBuf {
         let default = if self.quick {
             "target/quick-results"
@@ -228,35 +240,30 @@ impl Arguments {
 }
 
 /// All that are wanted, one after the other; whether all have succeeded.
-fn run_all(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
-    let wanted = |e: &&Experiment| {
-        arguments.only.is_empty() || arguments.only.iter().any(|name| name == e.name)
-    };
-    let wanted: Vec<&Experiment> = ALL.iter().filter(wanted).collect();
-    let results = Results::create(&arguments.directory())?;
+fn run_all(run: &Run) -> Result<bool, Failed> {
+    let mut wanted = ALL.map(|e| e.about()).to_vec();
+    wanted.retain(|e| run.only.is_empty() || run.only.iter().any(|name| name == e.name));
+    let results = Results::create(&run.directory())?;
     let mut ledger = Ledger::read(&results);
-    let (form, commit) = (arguments.form(), Machine::detect().commit);
-    let total = wanted.len();
+    let (form, commit) = (run.form(), Machine::detect().commit);
     let mut bad = Vec::new();
-    for (i, experiment) in wanted.iter().enumerate() {
-        let name = experiment.name;
-        if !arguments.again && ledger.has(name, form, &commit) {
-            println!(
-                "[{}/{total}] {name}: has been run with these sources; --again repeats it",
-                i + 1
-            );
+    for (i, &About { name, question, .. }) in wanted.iter().enumerate() {
+        let place = format!("[{}/{}] {name}:", i + 1, wanted.len());
+        if !run.again && ledger.has(name, form, &commit) {
+            println!("{place} has been run with these sources; --again repeats it");
             continue;
         }
-        let left = wanted[i..].iter().map(|e| e.seconds);
-        println!(
-            "[{}/{total}] {name}: {}{}",
-            i + 1,
-            experiment.question,
-            remaining(arguments.quick, left)
-        );
+        let minutes = wanted[i..]
+            .iter()
+            .map(|e| e.seconds)
+            .sum::<u64>()
+            .div_ceil(60);
+        match run.quick {
+            true => println!("{place} {question}"),
+            false => println!("{place} {question} (about {minutes} min for this and the rest)"),
+        }
         let start = Instant::now();
-        let status = child(name)?;
-        let outcome = match status.code() {
+        let outcome = match child(name)?.code() {
             Some(0) => "ok",
             Some(1) => "broken",
             _ => "failed",
@@ -283,18 +290,6 @@ fn run_all(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     Ok(bad.is_empty())
 }
 
-/// What this and the following experiments take, in the full form.
-fn remaining(quick: bool, seconds: impl Iterator<Item = u64>) -> String {
-    let seconds: u64 = seconds.sum();
-    if quick {
-        return String::new();
-    }
-    format!(
-        " (about {} min for this and the rest)",
-        seconds.div_ceil(60)
-    )
-}
-
 /// This program again, with the same arguments, for one experiment.
 fn child(name: &str) -> std::io::Result<std::process::ExitStatus> {
     Command::new(std::env::current_exe()?)
@@ -304,32 +299,29 @@ fn child(name: &str) -> std::io::Result<std::process::ExitStatus> {
         .status()
 }
 
-fn run_here(name: &str, arguments: Arguments) -> Result<bool, Box<dyn Error>> {
-    let experiment = ALL.iter().find(|e| e.name == name);
+fn run_here(name: &str, run: Run) -> Result<bool, Failed> {
+    let experiment = ALL.iter().find(|e| e.about().name == name);
     let experiment = experiment.expect("the parser knows the names");
     let context = Context {
-        quick: arguments.quick,
-        results: Results::create(&arguments.directory())?,
+        quick: run.quick,
+        results: Results::create(&run.directory())?,
         commit: Machine::detect().commit,
-        models: arguments.models,
-        tetgen: is_program(&arguments.tetgen).then_some(arguments.tetgen),
-        python: arguments.python,
-        rivals: arguments.rival,
-        limit: Duration::from_secs(arguments.limit),
+        models: run.models,
+        tetgen: is_program(&run.tetgen).then_some(run.tetgen),
+        python: run.python,
+        rivals: run.rival,
+        limit: Duration::from_secs(run.limit),
+        shard: run.shard,
     };
-    let answer = (experiment.run)(&context).map_err(|error| format!("{name}: {error}"));
-    let answer = match answer {
-        Ok(answer) => answer,
-        Err(error) => {
-            eprintln!("{error}");
-            std::process::exit(2);
-        }
-    };
+    let answer = experiment.run(&context).unwrap_or_else(|error| {
+        eprintln!("{name}: {error}");
+        std::process::exit(2);
+    });
     println!("{}", answer.text.trim_end());
     for path in &answer.files {
         println!("{}", path.display());
     }
-    print!("{}", expectation::text(&answer.expectations));
+    print!("{}", answer.expectations_text());
     Ok(answer.holds())
 }
 

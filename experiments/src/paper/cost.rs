@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::number::{percent, ratio, significant, whole};
-use super::source::{PaperError, Row, Sheet};
 use super::table::{Table, escaped};
+use crate::frame::sheet::{PaperError, Row, Sheet};
 use std::path::Path;
 
 /// Adds them.

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::number::{ratio, significant, whole};
-use super::source::{PaperError, Row, Sheet};
 use super::table::Table;
+use crate::frame::sheet::{PaperError, Row, Sheet};
 use std::path::Path;
 
 const CAVITY: [&str; 2] = ["cavity", ""];

@@ -2,9 +2,9 @@
 
 use super::Builder;
 use super::number::{ratio, whole};
-use super::source::{PaperError, Row, Sheet};
 use super::table::Table;
-use crate::sample::median;
+use crate::frame::sheet::{PaperError, Row, Sheet};
+use crate::measure::sample::median;
 
 /// First numbers of crossing tetrahedra of the classes: those of the original's two plots, and beyond.
 const CLASSES: [f64; 3] = [0.0, 103.0, 1841.0];

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::number::whole;
-use super::source::{PaperError, Row, Sheet};
 use super::table::Table;
+use crate::frame::sheet::{PaperError, Row, Sheet};
 use std::path::Path;
 
 /// The number types whose order is exact.

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use super::number::{percent, ratio, significant, whole};
-use super::source::{PaperError, Sheet};
+use crate::frame::sheet::{PaperError, Sheet};
 use std::path::Path;
 
 const METHODS: [(&str, &str, &str); 2] = [

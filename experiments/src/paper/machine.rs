@@ -1,8 +1,8 @@
 //! The machine of `MACHINE.txt`.
 
 use super::Builder;
-use super::source::PaperError;
 use super::table::escaped;
+use crate::frame::sheet::PaperError;
 use std::path::Path;
 
 const FILE: &str = "MACHINE.txt";

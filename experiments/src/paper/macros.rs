@@ -1,7 +1,7 @@
 //! `numbers.tex`: one `\newcommand` for each number of the text, with its source.
 
 use super::number;
-use super::source::PaperError;
+use crate::frame::sheet::PaperError;
 use std::collections::BTreeSet;
 
 /// The commands so far.

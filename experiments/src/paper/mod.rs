@@ -17,14 +17,13 @@ mod machine;
 mod macros;
 mod number;
 mod optional;
-mod source;
 mod table;
 mod table1;
 mod updates;
 
+pub use crate::frame::sheet::PaperError;
 pub use claims::Claim;
 pub use lint::{Finding, digits};
-pub use source::PaperError;
 
 use macros::Macros;
 use std::collections::BTreeMap;

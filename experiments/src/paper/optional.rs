@@ -3,9 +3,9 @@
 use super::Builder;
 use super::fig9_tetgen;
 use super::number::{ratio, significant, whole};
-use super::source::{PaperError, Row, Sheet};
 use super::table::{Table, cell, escaped, not_measured, of_sheet};
 use super::{table1, updates};
+use crate::frame::sheet::{PaperError, Row, Sheet};
 use std::path::Path;
 
 /// A CSV that becomes a table as it is: the paper has `\input{generated/STEM-table}` and the switch `\ifSWITCH`.

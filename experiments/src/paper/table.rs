@@ -1,7 +1,7 @@
 //! LaTeX tables: those that the other modules build, and any CSV as a table.
 
 use super::number;
-use super::source::{PaperError, Sheet};
+use crate::frame::sheet::{PaperError, Sheet};
 
 /// A table with a head.
 #[derive(Clone, Debug)]

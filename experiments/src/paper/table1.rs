@@ -3,8 +3,8 @@
 
 use super::Builder;
 use super::number::{percent, significant, whole};
-use super::source::{PaperError, Row, Sheet};
 use super::table::{Table, escaped};
+use crate::frame::sheet::{PaperError, Row, Sheet};
 
 /// The counts: column of the file, head.
 const COUNTS: [(&str, &str); 10] = [

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::number::ratio;
-use super::source::{PaperError, Sheet};
 use super::table::of_sheet;
+use crate::frame::sheet::{PaperError, Sheet};
 
 const COLUMNS: [(&str, &str); 12] = [
     ("model", "input"),

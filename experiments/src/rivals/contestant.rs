@@ -1,7 +1,7 @@
 //! Who takes part.
 
 use super::process;
-use crate::experiment::Context;
+use crate::frame::Context;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 

@@ -1,7 +1,21 @@
 //! TetGen's output.
 
-use super::measure::Figures;
 use super::process::{Ran, number_after};
+
+/// What a program tells of a successful run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// Processor time of the algorithm.
+    pub seconds: f64,
+    /// Of these, for polygons (and TetGen's segments).
+    pub polygon_seconds: Option<f64>,
+    /// Wall clock of the algorithm.
+    pub wall: Option<f64>,
+    /// Tetrahedra in the end.
+    pub tetrahedra: usize,
+    /// New vertices.
+    pub steiner_points: Option<usize>,
+}
 
 /// The switches: no files; a CDT with the hull and without optimization, if there are facets.
 pub fn switches(has_facets: bool) -> String {

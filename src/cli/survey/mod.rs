@@ -17,7 +17,7 @@ use super::{Stop, say};
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use method::{Algorithm, Method, Steiner};
-use models::{Model, Shard, fnv1a, models};
+use models::{Model, models};
 use run::{Settings, run};
 use std::io;
 use std::num::NonZeroUsize;
@@ -26,6 +26,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::time::Instant;
 use table::{Run, Table};
+use tetflip::lab::{Shard, fnv1a};
 use worker::{Job, work};
 
 /// Arguments of `tetflip survey`.

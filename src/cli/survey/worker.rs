@@ -5,7 +5,6 @@
 
 use super::limits::{limit_memory, limit_processor, peak_mib};
 use super::method::{Algorithm, Steiner};
-use super::models::fnv1a;
 use super::tetgen::{Tetgen, run_tetgen};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -21,6 +20,7 @@ use tetflip::error::{Failure, GaveUp};
 use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::Plc;
 use tetflip::format::{FormatError, read_plc};
+use tetflip::lab::fnv1a;
 use tetflip::recover::polygons::Insertion;
 use tetflip::report::Report;
 use tetflip::verify::{Domain, Verdict, VerifyOptions, verify};

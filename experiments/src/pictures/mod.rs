@@ -1,0 +1,4 @@
+//! Plots and pictures.
+
+pub mod picture;
+pub mod plot;
