@@ -1,8 +1,9 @@
 //! `tetflip verify`: a mesh, whoever wrote it, against its PLC.
 
-use super::{Stop, read, say};
+use super::{Stop, read, say, warn};
 use clap::ValueEnum;
 use std::path::PathBuf;
+use tetflip::exchange::{Note, NoteCode};
 use tetflip::format::read_mesh;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
@@ -10,7 +11,7 @@ use tetflip::verify::{Domain, VerifyOptions, verify};
 pub(crate) struct VerifyArguments {
     /// The PLC.
     plc: PathBuf,
-    /// The mesh: NAME.node, with NAME.ele and, if there, NAME.face and NAME.edge beside it.
+    /// The mesh: NAME.node, with NAME.ele and, if there, NAME.face and NAME.edge beside it; or Medit's NAME.mesh.
     mesh: PathBuf,
     /// Which part of space the mesh is meant to fill.
     #[arg(long, value_enum, default_value_t = DomainArgument::Auto)]
@@ -27,16 +28,19 @@ pub(crate) struct VerifyArguments {
     /// Refuse a mesh in which facets that are not exactly coplanar have been merged.
     #[arg(long)]
     strict: bool,
-    /// Say nothing; only the exit status.
+    /// Check everything but that faces which are on no facet are locally Delaunay.
+    #[arg(long)]
+    any_triangulation: bool,
+    /// Say nothing but notes; else only the exit status.
     #[arg(short, long)]
     quiet: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum DomainArgument {
-    /// The inside if the mesh is bounded by facets, else the hull.
+    /// The inside; the convex hull only where the facets enclose nothing.
     Auto,
-    /// The convex hull.
+    /// The convex hull, whether hole points are meshed or not.
     Hull,
     /// What the facets enclose.
     Inside,
@@ -70,9 +74,11 @@ pub(crate) fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
             [] => VerifyOptions::default().tolerance,
             _ => 0.0,
         }),
+        any_triangulation: arguments.any_triangulation,
         ..VerifyOptions::default()
     };
     let mut verdict = verify(&plc, &mesh, exactly);
+    let mut merged_by_angle = None;
     if !verdict.is_ok() && !arguments.strict {
         let leniently = VerifyOptions {
             merge_angle: Some(arguments.merge_angle),
@@ -83,26 +89,29 @@ pub(crate) fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
         if lenient.is_ok()
             || lenient.totals.values().sum::<usize>() < verdict.totals.values().sum::<usize>()
         {
-            if !arguments.quiet {
-                say(&format!(
-                    "{} facet edges of the input are missing between facets that meet at {} degrees or more: the mesh's \
-                     maker merged facets that are not exactly coplanar; they are verified as merged (see --strict)",
-                    lenient
-                        .counts
-                        .segments_merged
-                        .saturating_sub(verdict.counts.segments_merged),
-                    arguments.merge_angle
-                ));
-            }
+            let merged = &lenient.counts.segments_merged;
+            let more = merged.saturating_sub(verdict.counts.segments_merged);
+            let text = format!(
+                "{more} facet edges of the input are missing between facets that meet at {} degrees or more: the mesh's \
+                 maker merged facets that are not exactly coplanar; they are verified as merged (see --strict)",
+                arguments.merge_angle
+            );
+            merged_by_angle = Some(Note::new(NoteCode::MergedByAngle, more, text));
             verdict = lenient;
         }
     }
+    let notes = merged_by_angle.iter().chain(&verdict.notes);
+    notes.for_each(|note| warn(&note.to_string()));
     if !arguments.quiet {
         say(verdict.to_string().trim_end());
     }
     if verdict.is_ok() {
         Ok(())
     } else {
-        Err(Stop::failed("the mesh is not a CDT of the PLC"))
+        let claim = match arguments.any_triangulation {
+            true => "the mesh is not a tetrahedralization of the PLC",
+            false => "the mesh is not a CDT of the PLC",
+        };
+        Err(Stop::failed(claim))
     }
 }

@@ -14,6 +14,20 @@ pub enum NoteCode {
     SpoiltByRounding,
     /// The convex hull is kept because the facets enclose nothing (`hull-instead`).
     HullInstead,
+    /// All tetrahedra of a mesh are negative, and are read with the other orientation (`negative-tetrahedra`).
+    NegativeTetrahedra,
+    /// Facets without an area claim nothing (`degenerate-facets`).
+    DegenerateFacets,
+    /// Facets that are equal to others are one with them (`repeated-facets`).
+    RepeatedFacets,
+    /// A mesh has markers where the input has none (`missing-markers`).
+    MissingMarkers,
+    /// Facets were verified as merged that are not exactly coplanar (`merged-by-angle`).
+    MergedByAngle,
+    /// A mesh fills the convex hull although the facets enclose less (`fills-hull`).
+    FillsHull,
+    /// Delaunayhood was not checked (`any-triangulation`).
+    AnyTriangulation,
 }
 
 impl NoteCode {
@@ -23,6 +37,13 @@ impl NoteCode {
             NoteCode::ExactSteiner => "exact-steiner",
             NoteCode::SpoiltByRounding => "spoilt-by-rounding",
             NoteCode::HullInstead => "hull-instead",
+            NoteCode::NegativeTetrahedra => "negative-tetrahedra",
+            NoteCode::DegenerateFacets => "degenerate-facets",
+            NoteCode::RepeatedFacets => "repeated-facets",
+            NoteCode::MissingMarkers => "missing-markers",
+            NoteCode::MergedByAngle => "merged-by-angle",
+            NoteCode::FillsHull => "fills-hull",
+            NoteCode::AnyTriangulation => "any-triangulation",
         }
     }
 }

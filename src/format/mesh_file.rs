@@ -6,7 +6,7 @@
 //!
 //! Extensions may be written in capitals, and then the other files' are as well: `M.ELE` stands beside `M.NODE`.
 
-use super::{MeshFileError, UnwritableMesh, sibling, tetgen_mesh, vtu};
+use super::{MeshFileError, UnwritableMesh, medit_mesh, sibling, tetgen_mesh, vtu};
 use crate::exchange::ExportedMesh;
 use crate::mesh::VertexId;
 use std::io::{self, BufWriter, Write};
@@ -96,7 +96,7 @@ pub fn mesh_paths(path: &Path) -> Result<Vec<PathBuf>, MeshFileError> {
 }
 
 /// Reads `NAME.node` and `NAME.ele`, and `NAME.face`, `NAME.edge` and `NAME.steiner` if they exist; `path` is any of the first
-/// four.
+/// four. Or reads `NAME.mesh`, one ASCII file of Medit.
 ///
 /// Files of TetGen are read as well as ours: comments, marks and attributes of vertices and the extra columns of `-nn`
 /// are skipped; of several attributes of a tetrahedron the last is the region's, where TetGen puts it. What the
@@ -108,6 +108,17 @@ pub fn read_mesh(path: &Path) -> Result<ExportedMesh, MeshFileError> {
     let extension = path.extension().and_then(|e| e.to_str());
     match extension.and_then(Format::of_extension) {
         Some(Format::TetGen) => tetgen_mesh::read(path),
+        None if extension.is_some_and(|e| e.eq_ignore_ascii_case("mesh")) => {
+            let bytes = std::fs::read(path).map_err(|source| MeshFileError::Io {
+                path: path.to_path_buf(),
+                source,
+            })?;
+            medit_mesh::read(&bytes).map_err(|(line, reason)| MeshFileError::Line {
+                path: path.to_path_buf(),
+                line,
+                reason,
+            })
+        }
         Some(Format::Vtu) | None => Err(MeshFileError::ReadExtension {
             path: path.to_path_buf(),
         }),

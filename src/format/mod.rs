@@ -11,6 +11,7 @@ mod conflicts_vtu;
 mod error;
 mod lines;
 mod medit;
+mod medit_mesh;
 mod mesh_error;
 mod mesh_file;
 mod obj;

@@ -17,8 +17,8 @@
 //! | `lookup` | faces, edges, tetrahedra and cells of facets, by vertices and by points |
 //! | `claims` | what a mesh has to satisfy, below |
 //!
-//! No room uses one below it in this table. Beside them: [`Verdict`], [`Violation`], [`VerifyOptions`], the input in terms
-//! of the points of the mesh (`input`), and what all claims look at (`case`).
+//! No room uses one below it in this table. Beside them: [`Verdict`], [`Violation`], [`VerifyOptions`], the input in
+//! terms of the points of the mesh (`input`), and what all claims look at (`case`).
 //!
 //! # The claims
 //! | file of `claims` | claim |
@@ -27,25 +27,30 @@
 //! | `positions` | vertices with exact positions on a segment have the coordinates of those, rounded |
 //! | `orientation` | every tetrahedron is positive |
 //! | `listed` | listed faces and edges are faces and edges of tetrahedra |
+//! | `crossings` | faces of the boundary that are not exactly on facets cross no others |
 //! | `adjacency` | faces have one tetrahedron, or one on each side; no two tetrahedra overlap |
 //! | `vertices` | every input vertex in the domain is in the mesh |
 //! | `segments` | every segment is a chain of mesh edges |
 //! | `facets` | every facet is a union of mesh faces |
 //! | `delaunay` | every other face is locally Delaunay |
+//! | `markers` | the faces on facets are listed, with markers of these |
 //! | `domain` | the tetrahedra fill the domain: the convex hull, or the inside without holes |
 //! | `regions` | region attributes |
 //!
-//! Premise: the PLC is valid, that is, its facets and segments intersect in common segments and vertices only. (If it
-//! is not, some claim fails, as no mesh can satisfy all of them; but the verdict does not say that this is the reason.)
+//! Premise: the PLC is valid, or needs only repairs that move nothing: its facets and segments intersect in common
+//! segments and vertices only, or in vertices and edges exactly on others, or overlap in one plane. (If it is not,
+//! some claim fails, as no mesh can satisfy all of them; but the verdict does not say that this is the reason.)
 //!
 //! Tolerance: Steiner points of other programs, and ours once rounded to doubles, are not exactly on their segments
 //! and facets. [`VerifyOptions::tolerance`] says how far off they may be to count as on them; what they then have to
-//! satisfy is exact. The verdict counts how often this was needed. With tolerance 0 nothing is forgiven.
+//! satisfy is exact: no tetrahedra overlap (`crossings`). The verdict counts how often this was needed. With
+//! tolerance 0 nothing is forgiven.
 
 mod case;
 mod claims;
 mod input;
 mod lookup;
+mod notes;
 mod options;
 mod place;
 mod signs;
@@ -112,6 +117,8 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         tolerance: options.tolerance.max(0.0) * ulp(points.largest()),
         rounding: VerifyOptions::default().tolerance * ulp(points.largest()),
     };
+    findings.counts.tolerance = case.tolerance;
+    findings.counts.facets_repeated = case.input.repeated();
     let listed = claims::listed::check(&case, &mut findings);
     claims::adjacency::check(&case, &mut findings);
     claims::vertices::check(&case, &mut findings);
@@ -124,7 +131,10 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         &mut findings,
     );
     claims::domain::check(&case, &fates, &cover, &mut findings);
-    claims::regions::check(&case, &cover.constrained, &mut findings);
+    claims::regions::check(&case, &cover.leaks, &mut findings);
+    claims::crossings::check(&case, &cover, &mut findings);
+    claims::markers::check(&case, &listed, &cover, &mut findings);
+    notes::collect(&case, &mut findings);
     findings.counts.exact_signs = points.exact_signs();
     findings.verdict()
 }

@@ -6,11 +6,12 @@ pub const MOST_TETS: usize = (1 << 29) - 1;
 /// What the mesh is expected to fill.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Domain {
-    /// The convex hull if the mesh is convex and does not fit the inside: a boundary face is on no facet, or a hole
-    /// point is meshed. Otherwise the inside.
+    /// What the facets enclose, as [`Domain::Inside`]. Only where they enclose nothing in the mesh, and this is convex,
+    /// the convex hull; hole points must not be meshed then, either.
     #[default]
     Auto,
-    /// The convex hull of the vertices.
+    /// The convex hull of the vertices. Hole points may be meshed, as there are two opinions on what a hole is in a
+    /// mesh that keeps its convex hull.
     Hull,
     /// What the facets enclose, without the parts that hold a hole point.
     Inside,
@@ -27,6 +28,8 @@ pub struct VerifyOptions {
     /// degrees (TetGen: 179.9). Otherwise only exactly coplanar ones. If the mesh lists edges, such a merged edge may
     /// be an edge of the mesh by chance, but is not listed.
     pub merge_angle: Option<f64>,
+    /// Whether faces that are on no facet need not be locally Delaunay: everything else is checked.
+    pub any_triangulation: bool,
     /// How many violations of each kind are listed.
     pub cap: usize,
 }
@@ -37,6 +40,7 @@ impl Default for VerifyOptions {
             domain: Domain::Auto,
             tolerance: 8.0,
             merge_angle: None,
+            any_triangulation: false,
             cap: 20,
         }
     }

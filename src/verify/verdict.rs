@@ -1,5 +1,6 @@
 //! The outcome of a verification: what was checked and what does not hold.
 
+use crate::exchange::Note;
 use crate::verify::options::Domain;
 use crate::verify::violation::Violation;
 use std::collections::BTreeMap;
@@ -46,6 +47,20 @@ pub struct Counts {
     pub segment_vertices_exact: usize,
     /// Inner vertices of the chains that are on it up to rounding.
     pub segment_vertices_rounded: usize,
+    /// How far off a Steiner point may be from its segment or facet to count as on it.
+    pub tolerance: f64,
+    /// Faces of the boundary that are not known to be exactly on their facets: each was compared with all near it.
+    pub faces_compared: usize,
+    /// Listed faces with a marker of their facets.
+    pub markers: usize,
+    /// Listed faces with 1 or −1 on facets without a marker.
+    pub markers_instead: usize,
+    /// Listed faces on the boundary.
+    pub faces_turned: usize,
+    /// Those among them that are not oriented outward.
+    pub faces_inward: usize,
+    /// Facets that are equal to others.
+    pub facets_repeated: usize,
     /// Facets that mesh faces cover.
     pub facets: usize,
     /// The groups into which merged edges join the facets.
@@ -62,6 +77,8 @@ pub struct Counts {
     pub holes_meshed: usize,
     /// Region points whose tetrahedron was compared.
     pub regions: usize,
+    /// Whether the mesh was found to fill the convex hull although that was not asked for.
+    pub fills_hull: bool,
     /// Edges of the hull that are not convex, but are up to rounding.
     pub hull_dents: usize,
     /// What the mesh was taken to fill; never [`Domain::Auto`] once it is known.
@@ -95,6 +112,8 @@ impl Counts {
 pub struct Verdict {
     /// What was checked.
     pub counts: Counts,
+    /// What was forgiven or assumed.
+    pub notes: Vec<Note>,
     /// What does not hold: of each kind the first [`super::options::VerifyOptions::cap`] ones.
     pub violations: Vec<Violation>,
     /// How many violations there are of each kind ([`Violation::kind`]), whether listed or not.
@@ -168,6 +187,21 @@ impl fmt::Display for Verdict {
             "voids: {}, hole points meshed: {}, region points: {}, hull edges dented by rounding: {}",
             c.voids, c.holes_meshed, c.regions, c.hull_dents
         )?;
+        if c.steiner_vertices > 0 {
+            writeln!(
+                f,
+                "tolerance: Steiner points count as on segments and facets up to {:e}; {} faces of the boundary compared \
+                 with those near them",
+                c.tolerance, c.faces_compared
+            )?;
+        }
+        if c.markers + c.markers_instead > 0 {
+            writeln!(
+                f,
+                "listed faces: {} with the marker of their facet",
+                c.markers
+            )?;
+        }
         writeln!(f, "signs decided by integers: {}", c.exact_signs)?;
         for (kind, total) in &self.totals {
             writeln!(f, "VIOLATED {kind}: {total}")?;
@@ -183,6 +217,7 @@ impl fmt::Display for Verdict {
 #[derive(Clone)]
 pub(crate) struct Findings {
     pub(crate) counts: Counts,
+    pub(crate) notes: Vec<Note>,
     pub(crate) violations: Vec<Violation>,
     totals: BTreeMap<&'static str, usize>,
     cap: usize,
@@ -192,6 +227,7 @@ impl Findings {
     pub(crate) fn new(cap: usize) -> Findings {
         Findings {
             counts: Counts::default(),
+            notes: Vec::new(),
             violations: Vec::new(),
             totals: BTreeMap::new(),
             cap,
@@ -240,6 +276,7 @@ impl Findings {
     pub(crate) fn verdict(self) -> Verdict {
         Verdict {
             counts: self.counts,
+            notes: self.notes,
             violations: self.violations,
             totals: self.totals,
         }

@@ -97,6 +97,47 @@ pub enum Violation {
         /// Its vertices.
         vertices: [Place; 4],
     },
+    /// A face of the boundary with rounded vertices, or on a facet that is not exactly flat, crosses or touches
+    /// another.
+    #[error("the boundary faces {}, {}, {} of tetrahedron {} and {}, {}, {} of tetrahedron {} cross",
+        .faces[0][0], .faces[0][1], .faces[0][2], .tets[0], .faces[1][0], .faces[1][1], .faces[1][2], .tets[1])]
+    BoundaryCrosses {
+        /// The two faces.
+        faces: [[Place; 3]; 2],
+        /// The tetrahedra behind them.
+        tets: [usize; 2],
+    },
+    /// The mesh lists a face that is on no facet, and not on the boundary.
+    #[error("listed face {index}, {}, {}, {}, covers no facet{}", .face[0], .face[1], .face[2], facet_of(.facet))]
+    ListedNotOnFacet {
+        /// Its index in the list.
+        index: usize,
+        /// Its vertices.
+        face: [Place; 3],
+        /// A facet that its vertices are on, but which other faces cover.
+        facet: Option<usize>,
+    },
+    /// The mesh lists faces, but not one that covers a facet.
+    #[error("the face {}, {}, {} covers facet {facet} but is not listed", .face[0], .face[1], .face[2])]
+    FaceNotListed {
+        /// The face.
+        face: [Place; 3],
+        /// The facet.
+        facet: usize,
+    },
+    /// A listed face has a marker that none of its facets has.
+    #[error("listed face {index}, {}, {}, {}, has the marker {marker}, its facets have {expected:?}",
+        .face[0], .face[1], .face[2])]
+    WrongMarker {
+        /// Its index in the list.
+        index: usize,
+        /// Its vertices.
+        face: [Place; 3],
+        /// Its marker.
+        marker: i64,
+        /// The markers of its facets; 0 where it is on none.
+        expected: Vec<i64>,
+    },
     /// More than two tetrahedra share a face.
     #[error("{} tetrahedra share the face {}, {}, {}", .tets.len(), .face[0], .face[1], .face[2])]
     CrowdedFace {
@@ -302,6 +343,10 @@ impl Violation {
             Violation::CoincidentVertices { .. } => "coincident vertices",
             Violation::MissingVertex { .. } => "missing vertex",
             Violation::Orientation { .. } => "orientation",
+            Violation::BoundaryCrosses { .. } => "boundary crosses",
+            Violation::ListedNotOnFacet { .. } => "listed but not on a facet",
+            Violation::FaceNotListed { .. } => "face not listed",
+            Violation::WrongMarker { .. } => "wrong marker",
             Violation::CrowdedFace { .. } => "crowded face",
             Violation::SameSide { .. } => "same side",
             Violation::Overlap { .. } => "overlap",

@@ -16,7 +16,7 @@ const INNER: [(&str, &str); 2] = [
     ),
     (
         "verify",
-        "place options violation verdict signs lookup input case claims",
+        "place options violation verdict signs lookup input case claims notes",
     ),
 ];
 

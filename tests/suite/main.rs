@@ -26,6 +26,9 @@ mod surface_formats;
 #[cfg(feature = "cli")]
 mod survey;
 mod verify_islands;
+mod verify_listed;
 mod verify_rejects;
 mod verify_threads;
+mod verify_tolerance;
+mod verify_unrepaired;
 mod wide_floats;

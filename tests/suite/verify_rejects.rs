@@ -47,10 +47,13 @@ fn points_only() {
     let vertices = bipyramid(1.0);
     let points = plc(&vertices, &[]);
     let mut right = mesh(&vertices, &THREE);
-    right.faces.push(ExportedFace {
-        vertices: ids([0, 3, 4]),
+    let listed = |v| ExportedFace {
+        vertices: ids(v),
         marker: 0,
-    });
+    };
+    right.faces.push(listed([0, 3, 4]));
+    assert_kinds(&run(&points, &right), &["listed but not on a facet"]);
+    right.faces[0] = listed([0, 1, 4]);
     let verdict = run(&points, &right);
     assert_kinds(&verdict, &[]);
     assert_eq!(
@@ -306,7 +309,8 @@ fn a_closed_chamber_must_be_meshed() {
     plc.holes.push([1.5, 0.25, 0.5]);
     assert_kinds(&run(&plc, &one), &[]);
     assert_kinds(&run_as(Domain::Inside, &plc, &both), &["hole meshed"]);
-    assert_eq!(run(&plc, &both).counts.holes_meshed, 1);
+    assert_kinds(&run(&plc, &both), &["hole meshed"]);
+    assert_eq!(run_as(Domain::Hull, &plc, &both).counts.holes_meshed, 1);
     // An open chamber needs no tetrahedra.
     plc.holes.clear();
     plc.facets.pop();
@@ -418,7 +422,7 @@ fn listed_elements_must_exist() {
         marker: 0,
     });
     let verdict = run(&plc, &mesh);
-    assert_kinds(&verdict, &["listed but not in mesh"]);
+    assert_kinds(&verdict, &["face not listed", "listed but not in mesh"]);
     assert_eq!(verdict.totals["listed but not in mesh"], 2);
 }
 

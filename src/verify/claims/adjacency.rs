@@ -25,12 +25,10 @@
 //! Where the hull is kept there may be tetrahedra in its voids; all their vertices are in the hull
 //! ([`super::domain`]), and they end at facets, so that their faces do not cross those of the hull either.
 //!
-//! # What a tolerance leaves open
-//! With a tolerance above zero, faces of B with rounded vertices are on their facets up to it only, and fact 1 holds
-//! up to it only: where two facets, or two parts of one that is not flat, are nearer to each other than twice the
-//! tolerance, without a common vertex there, such faces may cross, and tetrahedra overlap in a layer thinner than
-//! that. That is not looked for, as fact 2 is checked for one face of each shell. With tolerance 0, or without
-//! rounded vertices, nothing is left open.
+//! # Within a tolerance
+//! With a tolerance above zero, faces of B with rounded vertices are on their facets up to it only, and so are faces
+//! on facets that are not exactly flat. That these do not cross others is looked at face by face
+//! ([`super::crossings`]), so that fact 1 holds with any tolerance.
 
 use crate::verify::case::Case;
 use crate::verify::lookup::locate;

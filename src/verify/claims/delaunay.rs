@@ -21,7 +21,9 @@ pub(crate) fn is_locally_delaunay(case: &Case, f: usize) -> bool {
     !side_of_sphere(case.points, &case.tables.faces[f]).is_positive()
 }
 
-/// `constrained[f]`: face f is one of those that cover a facet. `facet_of(f)`: a facet whose vertices it has.
+/// Counts the faces that are on no facet, and reports those that are not locally Delaunay, unless any triangulation
+/// will do. `constrained[f]`: face f is one of those that cover a facet. `facet_of(f)`: a facet whose vertices it
+/// has.
 pub(crate) fn check(
     case: &Case,
     constrained: &[bool],
@@ -33,6 +35,9 @@ pub(crate) fn check(
     let is_covering = |f: usize| constrained[f] && faces[f].is_shared();
     let covering = threads::count(faces.len(), FEW, is_covering);
     findings.counts.unconstrained_faces = inner - covering;
+    if case.options.any_triangulation {
+        return;
+    }
     let free = |f: &&usize| !constrained[**f];
     let cospherical = spheres.cospherical.iter().filter(free).count();
     findings.counts.cospherical_faces = cospherical + spheres.cospherical_elsewhere;

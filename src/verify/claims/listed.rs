@@ -16,6 +16,8 @@ const FEW: usize = 1 << 12;
 
 /// What the mesh lists.
 pub(crate) struct Listed {
+    /// Where each of its faces is in the tables, if it has it.
+    pub(crate) places: Vec<Option<usize>>,
     /// The faces that it lists and has, and their edges.
     pub(crate) surface: Surface,
     /// The edges that it lists and has: those of vertex v are `ends[start[v]..start[v + 1]]`.
@@ -58,17 +60,16 @@ pub(crate) fn vertices(mesh: &ExportedMesh, vertices: usize) -> Vec<bool> {
 
 pub(crate) fn check(case: &Case, findings: &mut Findings) -> Listed {
     let places = threads::map(case.mesh.faces.len(), FEW, |i| {
-        let found = case.tables.find_face(case.mesh.faces[i].vertices);
-        found.map_or(u32::MAX, |f| f as u32)
+        case.tables.find_face(case.mesh.faces[i].vertices)
     });
     let mut faces = Vec::with_capacity(places.len());
-    for (index, place) in places.into_iter().enumerate() {
-        match place {
-            u32::MAX => findings.report(Violation::ListedNotInMesh {
+    for (index, place) in places.iter().enumerate() {
+        match *place {
+            None => findings.report(Violation::ListedNotInMesh {
                 element: "face",
                 index,
             }),
-            f => faces.push(f),
+            Some(f) => faces.push(f as u32),
         }
     }
     faces.sort_unstable();
@@ -109,6 +110,7 @@ pub(crate) fn check(case: &Case, findings: &mut Findings) -> Listed {
         }
     }
     Listed {
+        places,
         surface,
         start,
         ends,

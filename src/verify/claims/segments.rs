@@ -188,14 +188,15 @@ fn leaves(case: &Case, [a, b]: [VertexId; 2]) -> bool {
     unused || (!case.locator.enters(a, &[b]) && !case.locator.enters(b, &[a]))
 }
 
-/// Whether the edge is of exactly two facets with one marker, on opposite sides of it, whose planes are the same
-/// exactly or within [`super::super::options::VerifyOptions::merge_angle`].
+/// Whether the edge is of exactly two facets (not counting equal ones) with the same markers, on opposite sides of it,
+/// whose planes are the same exactly or within [`super::super::options::VerifyOptions::merge_angle`].
 fn is_mergeable(case: &Case, e: usize) -> bool {
     let edge = &case.input.edges[e];
     let [f, g] = edge.facets[..] else {
         return false;
     };
-    if edge.explicit || case.plc.facets[f].marker != case.plc.facets[g].marker {
+    let [m, n] = [f, g].map(|i| case.input.markers_of(case.plc, i));
+    if edge.explicit || m != n {
         return false;
     }
     let facets = [f, g].map(|i| &case.input.facets[i]);

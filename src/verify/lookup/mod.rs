@@ -2,6 +2,7 @@
 //! cells by points.
 
 pub(crate) mod area;
+pub(crate) mod boxes;
 pub(crate) mod directions;
 pub(crate) mod gather;
 pub(crate) mod locate;

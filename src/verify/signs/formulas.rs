@@ -95,7 +95,8 @@ mod tests {
     }
 
     proptest! {
-        /// The polynomials that the verifier shares with the construction are the determinants that they are said to be.
+        /// The polynomials that the verifier shares with the construction are the determinants that they are said to
+        /// be.
         #[test]
         fn polynomials_are_determinants(
             p in prop::collection::vec([-9i32..10, -9i32..10, -9i32..10], 5),

@@ -5,8 +5,11 @@
 //! count as walls of the empty space, so that a closed chamber without tetrahedra is found, too.
 //!
 //! *Hull*: the outer boundary is convex ([`hull`]) and all of the input is in the mesh; voids are as above, and so is
-//! what is in them, but a hole point may be meshed, as there are two opinions on what a hole is in a mesh that keeps
-//! its convex hull.
+//! what is in them, but if the hull was asked for a hole point may be meshed, as there are two opinions on what a hole
+//! is in a mesh that keeps its convex hull.
+//!
+//! If nothing was asked for, the inside is expected, unless there is none: if every tetrahedron is reached from outside
+//! without crossing a facet.
 //!
 //! In both cases the volumes of the tetrahedra add up to the volume that the boundary encloses. Six times the volume
 //! of a tetrahedron is the sum of the cones from the origin over its four faces, and the cones over a face from both
@@ -25,6 +28,7 @@ use crate::verify::claims::domain::shells::{Shell, Shells};
 use crate::verify::claims::domain::winding::Boundary;
 use crate::verify::claims::facets::covering::Cover;
 use crate::verify::claims::segments::{self, Fate};
+use crate::verify::lookup::tables::INWARD;
 use crate::verify::options::Domain;
 use crate::verify::verdict::Findings;
 use crate::verify::violation::Violation;
@@ -70,12 +74,13 @@ pub(crate) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
         Domain::Hull => true,
         Domain::Inside => false,
         Domain::Auto => {
-            let open = case.tables.boundary().any(|(f, _)| !cover.constrained[f]);
-            let mut holes = case.input.holes.iter();
+            let is_open = case.plc.facets.is_empty()
+                || case.tables.boundary().any(|(f, _)| !cover.constrained[f]);
             let mut trial = findings.trial();
-            (open || holes.any(|&h| !case.locator.containing(h).is_empty())) && {
+            is_open && {
                 hull(&mut trial);
-                trial.is_empty()
+                findings.counts.fills_hull = trial.is_empty();
+                trial.is_empty() && enclose_nothing(case, cover)
             }
         }
     };
@@ -91,7 +96,36 @@ pub(crate) fn check(case: &Case, fates: &[Fate], cover: &Cover, findings: &mut F
         boundary_on_facets(case, cover, &outer, findings);
     }
     boundary_on_facets(case, cover, &voids, findings);
-    holes(case, &voids, is_hull, findings);
+    holes(case, &voids, case.options.domain == Domain::Hull, findings);
+}
+
+/// Whether all tetrahedra are reached from faces of the boundary that are on no facet, without crossing a facet.
+fn enclose_nothing(case: &Case, cover: &Cover) -> bool {
+    if case.plc.facets.is_empty() {
+        return true;
+    }
+    let tables = case.tables;
+    let open = tables.boundary().filter(|(f, _)| !cover.constrained[*f]);
+    let mut stack: Vec<usize> = open.map(|(_, face)| face.first().tet()).collect();
+    if stack.is_empty() {
+        return false;
+    }
+    let mut reached = vec![false; tables.tets.len()];
+    let mut count = 0;
+    while let Some(t) = stack.pop() {
+        if std::mem::replace(&mut reached[t], true) {
+            continue;
+        }
+        count += 1;
+        for corners in INWARD {
+            let face = tables.find_face(corners.map(|k| tables.tets[t][k]));
+            let f = face.expect("the face of a tetrahedron");
+            if let Some(sides) = tables.faces[f].both().filter(|_| !cover.constrained[f]) {
+                stack.extend(sides.map(|side| side.tet()));
+            }
+        }
+    }
+    count == tables.tets.len()
 }
 
 /// The shells of positive volume: those all of whose vertices are on the largest one or inside; and it and the others.
@@ -207,13 +241,13 @@ fn all_input_is_meshed(case: &Case, fates: &[Fate], cover: &Cover, findings: &mu
     }
 }
 
-/// Every void holds a hole point, and no hole point is meshed. A hole point is in the innermost of the voids around it,
-/// since nested shells have decreasing volumes.
-fn holes(case: &Case, voids: &[&Shell], is_hull: bool, findings: &mut Findings) {
+/// Every void holds a hole point, and no hole point is meshed, unless the hull was asked for. A hole point is in the
+/// innermost of the voids around it, since nested shells have decreasing volumes.
+fn holes(case: &Case, voids: &[&Shell], may_be_meshed: bool, findings: &mut Findings) {
     let mut has_hole = vec![false; voids.len()];
     for (h, &hole) in case.input.holes.iter().enumerate() {
         if let Some(&tet) = case.locator.containing(hole).first() {
-            if is_hull {
+            if may_be_meshed {
                 findings.counts.holes_meshed += 1;
             } else {
                 findings.report(Violation::HoleMeshed {

@@ -3,11 +3,11 @@
 
 use crate::mesh::VertexId;
 use crate::verify::case::Case;
-use crate::verify::claims::delaunay::is_locally_delaunay;
 use crate::verify::claims::facets::choice::{self, Need};
 use crate::verify::claims::facets::covering::{OutsidePart, PartialCover};
 use crate::verify::claims::facets::misfit::Misfit;
 use crate::verify::claims::facets::planes::{is_on_planes, planes};
+use crate::verify::claims::facets::{is_needed, is_uneven};
 use crate::verify::claims::segments::{Fate, axes_of};
 use crate::verify::lookup::area::{Area, distinct};
 use crate::verify::lookup::slabs::Slabs;
@@ -125,7 +125,7 @@ impl<'a> Group<'a> {
         self.exempt(&filled, cover, findings);
         let expected = self.expected();
         let given = candidates.iter().copied().filter(|&f| listed[f]);
-        let needed = |f: usize| !is_locally_delaunay(self.case, f);
+        let needed = |f: usize| is_needed(self.case, f);
         // Where the mesh is convex, the faces of its hull are listed, too, whether on a facet or not.
         let given_inside = |f: usize| listed[f] && self.case.tables.faces[f].is_shared();
         let choices: [&dyn Fn() -> Vec<usize>; 4] = [
@@ -145,7 +145,7 @@ impl<'a> Group<'a> {
                     let mut others = candidates
                         .iter()
                         .filter(|f| choice.binary_search(f).is_err());
-                    let explains = others.all(|&f| is_locally_delaunay(self.case, f));
+                    let explains = others.all(|&f| !is_needed(self.case, f));
                     if explains || covering.is_none() {
                         covering = Some(choice);
                     }
@@ -161,7 +161,10 @@ impl<'a> Group<'a> {
         if let Some(choice) = covering {
             findings.counts.facets += self.facets.len();
             findings.counts.facets_rounded += usize::from(self.is_rounded(&choice));
-            cover.constrain(&choice);
+            cover.constrain(&choice, self.facets[0]);
+            if is_uneven(self.case, &self.facets) {
+                cover.add_uneven(&choice);
+            }
             return;
         }
         let facets = self.facets.clone();

@@ -2,12 +2,12 @@
 //!
 //! Facets that share merged edges ([`super::segments`]) form a group. The faces that the mesh lists are tried first:
 //! if they cover a group ([`super::super::lookup::surface`]), and if in the end every face that covers no group is
-//! locally Delaunay, nothing has to be searched for. Else each group is looked at as follows ([`group`]). The
-//! *candidates* are the mesh faces whose centroid is inside the projected area of the group and whose vertices are
-//! vertices of it: its input vertices, vertices of the chains that replace its edges, and inside the area any vertex
-//! exactly on its plane, and Steiner points within the tolerance of the plane (for facets that are not flat, within
-//! the distance of their own vertices from it). They are found by a flood over mesh faces that starts at the edges of
-//! the group.
+//! locally Delaunay and no other face separates region attributes, nothing has to be searched for. Else each group is
+//! looked at as follows ([`group`]). The *candidates* are the mesh faces whose centroid is inside the projected area
+//! of the group and whose vertices are vertices of it: its input vertices, vertices of the chains that replace its
+//! edges, and inside the area any vertex exactly on its plane, and Steiner points within the tolerance of the plane
+//! (for facets that are not flat, within the distance of their own vertices from it). They are found by a flood over
+//! mesh faces that starts at the edges of the group.
 //!
 //! A set S of candidates *covers* the group if, exactly,
 //! - one face of S is at each edge of the boundary of the group, and two at every other edge of S, and
@@ -18,8 +18,8 @@
 //! candidates together are the only choice. Nearly flat vertices permit thin tetrahedra between candidates ("shims":
 //! all four faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh; a part
 //! of the candidates that is searched for ([`choice`]), with the listed faces inside the mesh; all candidates; a part
-//! with those that are not locally Delaunay. The first that leaves no candidate that is not locally Delaunay is
-//! taken, else the first that covers the group.
+//! with those that are *needed*, as they are not locally Delaunay or separate region attributes. The first that leaves
+//! no candidate that is needed is taken, else the first that covers the group.
 //!
 //! A part of a facet (a cell of [`Area`]) is outside the domain, and exempt, if no candidate lies in it and a step
 //! from one of its convex corners into it enters no tetrahedron. The facets of a PLC intersect in common segments
@@ -35,7 +35,9 @@ mod planes;
 
 use crate::threads;
 use crate::verify::case::Case;
+use crate::verify::claims::delaunay::is_locally_delaunay;
 use crate::verify::claims::listed::Listed;
+use crate::verify::claims::regions;
 use crate::verify::claims::segments::Fate;
 use crate::verify::verdict::Findings;
 use covering::{Cover, PartialCover};
@@ -52,8 +54,9 @@ pub(crate) fn check(
 ) -> Cover {
     let mut trial = findings.clone();
     let cover = cover_all(case, fates, listed, true, &mut trial);
-    let spheres = &case.tables.spheres;
-    if spheres.violated.iter().all(|&f| cover.constrained[f]) {
+    let violated = &case.tables.spheres.violated;
+    let is_delaunay = violated.iter().all(|&f| cover.constrained[f]);
+    if (is_delaunay || case.options.any_triangulation) && cover.leaks.is_empty() {
         *findings = trial;
         return cover;
     }
@@ -89,14 +92,17 @@ fn cover_all(
             own.counts.facet_groups += 1;
             if let Some(face) = same_face(case, fates, group) {
                 own.counts.facets += 1;
-                cover.constrain(&[face]);
+                cover.constrain(&[face], group[0].1);
                 continue;
             }
             let group: Vec<usize> = group.iter().map(|&(_, f)| f).collect();
             if let Some(found) = finder.as_mut().and_then(|finder| finder.cover(&group)) {
                 own.counts.facets += group.len();
                 own.counts.facets_rounded += usize::from(found.rounded);
-                cover.constrain(&found.faces);
+                cover.constrain(&found.faces, group[0]);
+                if is_uneven(case, &group) {
+                    cover.add_uneven(&found.faces);
+                }
                 cover.add_candidates(&found.faces, group[0]);
                 continue;
             }
@@ -112,8 +118,22 @@ fn cover_all(
         cover.append(part);
         findings.append(own);
     }
+    cover.finish();
+    cover.leaks = regions::leaks(case, &cover.constrained);
     findings.counts.constrained_faces = threads::count(faces, 1 << 16, |f| cover.constrained[f]);
     cover
+}
+
+/// Whether a face must be among those that cover the facets: it separates attributes, or is not locally Delaunay.
+fn is_needed(case: &Case, f: usize) -> bool {
+    (!case.options.any_triangulation && !is_locally_delaunay(case, f))
+        || regions::separates(case, f)
+}
+
+/// Whether some of the facets may not be exactly on one plane.
+fn is_uneven(case: &Case, facets: &[usize]) -> bool {
+    let bent = |&f: &usize| !case.input.facets[f].flat && case.input.facets[f].frame.is_some();
+    facets.iter().any(bent) || (facets.len() > 1 && case.options.merge_angle.is_some())
 }
 
 /// Fewer groups are one thread's work.
@@ -135,7 +155,7 @@ fn groups(case: &Case, fates: &[Fate]) -> Vec<(usize, usize)> {
             leader[f.max(g)] = f.min(g);
         }
     }
-    let facets = 0..leader.len();
+    let facets = (0..leader.len()).filter(|&f| !case.input.is_repeated(f));
     let mut groups: Vec<_> = facets.map(|f| (find(&mut leader, f), f)).collect();
     groups.sort_unstable();
     groups

@@ -1,5 +1,10 @@
 //! The PLC in terms of the points of the mesh: every input vertex is the used mesh vertex with the same coordinates, or
 //! a point of its own if there is none.
+//!
+//! The PLC is the one that was given, not one that was repaired: vertices may lie on edges and facets, facets may
+//! overlap in their plane or be equal, corners may be repeated. A facet without an area claims nothing.
+
+pub(crate) mod edges;
 
 use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
@@ -8,22 +13,12 @@ use crate::number::vector::{cross, dot, minus};
 use crate::number::{Dyadic, Vec3};
 use crate::threads;
 use crate::verify::lookup::places::Places;
-use crate::verify::lookup::tables::sorted2;
 use crate::verify::signs::points::Points;
+use edges::InputEdge;
 use rustc_hash::FxHashMap;
 
 /// Fewer elements are one thread's work.
 const FEW: usize = 1 << 12;
-
-/// An edge of facets or a segment given for itself; several coinciding ones are one.
-pub(crate) struct InputEdge {
-    /// Its ends, smaller first.
-    pub(crate) ends: [VertexId; 2],
-    /// The facets that have it as an edge of one of their polygons, in increasing order.
-    pub(crate) facets: Vec<usize>,
-    /// Whether [`Plc::segments`] or a polygon with two vertices lists it.
-    pub(crate) explicit: bool,
-}
 
 /// A facet.
 pub(crate) struct InputFacet {
@@ -59,6 +54,10 @@ pub(crate) struct Input {
     pub(crate) coincident: Vec<[VertexId; 2]>,
     /// Where the used mesh vertices are that are doubles, and the input vertices that are none.
     pub(crate) places: Places,
+    /// The facets that are equal to an earlier one, with the first such, in increasing order.
+    repeated: Vec<(usize, usize)>,
+    /// The same the other way round.
+    repeats: Vec<(usize, usize)>,
 }
 
 impl Input {
@@ -124,14 +123,24 @@ impl Input {
         for v in &site_of {
             is_site[v.index()] = true;
         }
-        let (edges, edges_of) = edges(plc, &site_of);
-        let parts = plc.facets.iter().zip(edges_of).zip(facet_holes);
-        let facets = threads::each(parts, FEW, |((facet, edges), holes)| {
+        let shapes = threads::each(plc.facets.iter(), FEW, |facet| {
             let corners = facet.polygons.iter().flatten();
             let mut vertices: Vec<VertexId> = corners.map(|v| site_of[v.index()]).collect();
             vertices.sort_unstable();
             vertices.dedup();
             let frame = frame(&points, &vertices);
+            (vertices, frame)
+        });
+        let has_area = |f: usize| shapes[f].1.is_some();
+        let edges::Edges {
+            edges,
+            of_facet,
+            repeated,
+        } = edges::all(plc, &points, &site_of, has_area);
+        let mut repeats: Vec<(usize, usize)> = repeated.iter().map(|&(f, g)| (g, f)).collect();
+        repeats.sort_unstable();
+        let parts = shapes.into_iter().zip(of_facet).zip(facet_holes);
+        let facets = threads::each(parts, FEW, |(((vertices, frame), edges), holes)| {
             let flat = frame.is_some_and(|[a, b, c]| {
                 let mut vertices = vertices.iter();
                 vertices.all(|&v| points.is_on_plane([a, b, c], v))
@@ -159,51 +168,38 @@ impl Input {
                 regions,
                 coincident,
                 places,
+                repeats,
+                repeated,
             },
             points,
         )
+    }
+
+    /// How many facets are equal to earlier ones.
+    pub(crate) fn repeated(&self) -> usize {
+        self.repeated.len()
+    }
+
+    /// Whether the facet is equal to an earlier one, which stands for both.
+    pub(crate) fn is_repeated(&self, facet: usize) -> bool {
+        !self.repeated.is_empty() && self.repeated.binary_search_by_key(&facet, |r| r.0).is_ok()
+    }
+
+    /// The markers of a facet and of those that are equal to it, without repetition, in increasing order.
+    pub(crate) fn markers_of(&self, plc: &Plc, facet: usize) -> Vec<i64> {
+        let start = self.repeats.partition_point(|r| r.0 < facet);
+        let others = self.repeats[start..].iter().take_while(|r| r.0 == facet);
+        let all = std::iter::once(facet).chain(others.map(|r| r.1));
+        let mut markers: Vec<i64> = all.map(|f| plc.facets[f].marker).collect();
+        markers.sort_unstable();
+        markers.dedup();
+        markers
     }
 
     /// Whether the point is an input vertex.
     pub(crate) fn is_site(&self, v: VertexId) -> bool {
         self.is_site.get(v.index()).copied().unwrap_or(false)
     }
-}
-
-/// All edges, and for each facet the indices of its own.
-fn edges(plc: &Plc, site_of: &[VertexId]) -> (Vec<InputEdge>, Vec<Vec<usize>>) {
-    // (ends, facet, whether it is listed for itself), where no facet comes last.
-    let mut uses: Vec<([VertexId; 2], u32, bool)> = Vec::new();
-    let key = |a: VertexId, b: VertexId| sorted2([site_of[a.index()], site_of[b.index()]]);
-    for (f, facet) in plc.facets.iter().enumerate() {
-        for polygon in &facet.polygons {
-            let n = polygon.len();
-            // A polygon with two vertices is one edge, and one vertex is none.
-            for i in 0..if n == 2 { 1 } else { n } {
-                uses.push((key(polygon[i], polygon[(i + 1) % n]), f as u32, n == 2));
-            }
-        }
-    }
-    let segments = plc.segments.iter();
-    uses.extend(segments.map(|s| (key(s.ends[0], s.ends[1]), u32::MAX, true)));
-    uses.retain(|(ends, ..)| ends[0] != ends[1]);
-    threads::sort(&mut uses, FEW);
-    let mut of_facet = vec![Vec::new(); plc.facets.len()];
-    let mut edges: Vec<InputEdge> = Vec::new();
-    for uses in uses.chunk_by(|x, y| x.0 == y.0) {
-        let facets = uses.iter().map(|u| u.1 as usize);
-        let mut facets: Vec<usize> = facets.filter(|&f| f != u32::MAX as usize).collect();
-        facets.dedup();
-        for &f in &facets {
-            of_facet[f].push(edges.len());
-        }
-        edges.push(InputEdge {
-            ends: uses[0].0,
-            facets,
-            explicit: uses.iter().any(|u| u.2),
-        });
-    }
-    (edges, of_facet)
 }
 
 /// The first vertex, the one farthest from it, and the one that makes the largest triangle with both; exactly not
