@@ -3,7 +3,7 @@
 use std::error::Error;
 use tetflip::cdt::Cdt;
 use tetflip::format::read_plc;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 
 /// The wall's place among the facets of the file.
@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut plc, _) = read_plc(path.as_ref())?;
     // Without the wall the two region points would be in one region.
     plc.regions.clear();
-    let insertion = Insertion::Flip(Times::Filtered);
+    let insertion = Insertion::Flip(FlipOrder::FILTERED);
     let mut report = Report::default();
     let mut cdt = Cdt::with_segments(&plc, true, &mut report)?;
     cdt.insert_polygons(insertion, &mut report, &mut |_polygons_done| {})?;

@@ -38,6 +38,7 @@ pub mod error;
 pub mod exchange;
 pub mod format;
 pub mod generate;
+pub mod kinetic;
 #[doc(hidden)]
 pub mod lab;
 #[allow(unsafe_code)]

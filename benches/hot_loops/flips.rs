@@ -5,12 +5,13 @@ use criterion::{BatchSize, Criterion, Throughput};
 use rustc_hash::FxHashSet;
 use std::hint::black_box;
 use tetflip::cdt::Cdt;
+use tetflip::kinetic::{EventQueue, TimeOrder};
 use tetflip::mesh::{Corner, TetId, TetMesh};
 use tetflip::number::Dyadic;
 use tetflip::predicate::{DoublePoints, PointStore};
 use tetflip::recover::flips::{
-    Event, ExactTimes, FilteredTimes, Flip, FlipKind, FlipQueue, FlipTimes, Motion, RoundedTimes,
-    Signs, flip_of_triangle,
+    Evaluation, Event, ExactTimes, FilteredTimes, Flip, FlipKind, FlipTimes, PolygonMotion,
+    RoundedTimes, Rules, Signs, flip_of_triangle,
 };
 use tetflip::recover::region::Region;
 use tetflip::recover::region::{Side, Sides};
@@ -48,12 +49,20 @@ impl Scene {
     }
 
     /// Lets `task` work with what moves while the rectangle is inserted.
-    fn with_motion<T>(&self, task: impl FnOnce(&Motion<'_, DoublePoints>) -> T) -> T {
+    fn with_motion<T>(&self, task: impl FnOnce(&PolygonMotion<'_, DoublePoints>) -> T) -> T {
         let polygon = &self.cdt.complex().polygons[0];
         let sides = Sides::new(&self.cdt.points, polygon, polygon.vertices.iter().copied());
         let is_left = |v| sides.of(v) == Side::Left;
-        task(&Motion::new(&self.cdt.points, polygon.frame, &is_left))
+        task(&PolygonMotion::new(
+            &self.cdt.points,
+            polygon.frame,
+            &is_left,
+        ))
     }
+}
+
+fn rounded<'a>(motion: &'a PolygonMotion<'a, DoublePoints>) -> RoundedTimes<'a, DoublePoints, f64> {
+    RoundedTimes::new(motion, Evaluation::Plain, Rules::default())
 }
 
 /// Event by event, as rounded, filtered and exact numbers.
@@ -67,7 +76,7 @@ pub fn flip_times(c: &mut Criterion) {
     let mut group = c.benchmark_group("flip time");
     group.throughput(Throughput::Elements(scene.triangles.len() as u64));
     scene.with_motion(|motion| {
-        let mut f64s = RoundedTimes::<_, f64>::new(motion);
+        let mut f64s = rounded(motion);
         group.bench_function("f64", |b| b.iter(|| time_all(&mut f64s, &scene.triangles)));
         let mut filtered = FilteredTimes::new(motion);
         group.bench_function("filtered", |b| {
@@ -82,32 +91,35 @@ pub fn flip_times(c: &mut Criterion) {
 }
 
 /// The events of the scene with their times, as many as there are.
-fn timed<C: FlipTimes>(times: &mut C, events: &[Event]) -> Vec<(Event, C::Key, C::Time)> {
+fn timed<C: FlipTimes>(times: &mut C, events: &[Event]) -> Vec<Timed<C::Order>> {
     let timed = events.iter().filter_map(|event| {
-        let timing = times.time(event.circuit)?;
-        Some((*event, timing.key, timing.time))
+        let due = times.time(event.circuit)?;
+        Some((*event, due.key, due.time))
     });
     timed.collect()
 }
 
+/// An event with its time.
+type Timed<O> = (Event, <O as TimeOrder>::Key, <O as TimeOrder>::Time);
+
 /// Each event with the next one: by keys, and where these do not tell in full, as the queue does it.
 pub fn comparison(c: &mut Criterion) {
-    fn compare_all<C: FlipTimes>(times: &mut C, timed: &[(Event, C::Key, C::Time)]) {
+    fn compare_all<C: FlipTimes>(times: &mut C, timed: &[Timed<C::Order>]) {
         for pair in timed.windows(2) {
             let [(a, key_a, time_a), (b, key_b, time_b)] = pair else {
                 unreachable!("windows of two")
             };
-            let by_keys = C::compare_keys(*key_a, *key_b);
-            black_box(by_keys.unwrap_or_else(|| times.compare((a, time_a), (b, time_b))));
+            let by_keys = C::Order::compare_keys(*key_a, *key_b);
+            black_box(by_keys.unwrap_or_else(|| times.order().compare((a, time_a), (b, time_b))));
         }
     }
     let scene = Scene::new();
     let mut group = c.benchmark_group("flip-time comparison");
     group.throughput(Throughput::Elements(scene.triangles.len() as u64));
     scene.with_motion(|motion| {
-        let mut f64s = RoundedTimes::<_, f64>::new(motion);
-        let rounded = timed(&mut f64s, &scene.triangles);
-        group.bench_function("f64", |b| b.iter(|| compare_all(&mut f64s, &rounded)));
+        let mut f64s = rounded(motion);
+        let f64_timed = timed(&mut f64s, &scene.triangles);
+        group.bench_function("f64", |b| b.iter(|| compare_all(&mut f64s, &f64_timed)));
         let mut filtered = FilteredTimes::new(motion);
         let enclosed = timed(&mut filtered, &scene.triangles);
         group.bench_function("filtered", |b| {
@@ -126,19 +138,19 @@ pub fn comparison(c: &mut Criterion) {
 pub fn queue(c: &mut Criterion) {
     let scene = Scene::new();
     fn drain<C: FlipTimes>(times: &mut C, events: &[Event]) -> usize {
-        let mut queue = FlipQueue::earliest_first();
+        let mut queue = EventQueue::earliest_first();
         for event in events {
-            if let Some(timing) = times.time(event.circuit) {
-                queue.push(times, *event, timing);
+            if let Some(due) = times.time(event.circuit) {
+                queue.push(times.order(), *event, due.key, due.time);
             }
         }
-        std::iter::from_fn(|| queue.pop(times)).count()
+        std::iter::from_fn(|| queue.pop(times.order())).count()
     }
     let mut group = c.benchmark_group("heap, with its flip times");
     group.throughput(Throughput::Elements(scene.triangles.len() as u64));
     scene.with_motion(|motion| {
         group.bench_function("f64", |b| {
-            b.iter(|| drain(&mut RoundedTimes::<_, f64>::new(motion), &scene.triangles));
+            b.iter(|| drain(&mut rounded(motion), &scene.triangles));
         });
         group.bench_function("filtered", |b| {
             b.iter(|| drain(&mut FilteredTimes::new(motion), &scene.triangles));

@@ -3,7 +3,7 @@
 use super::inputs::before_polygon;
 use criterion::{BatchSize, Criterion, Throughput};
 use tetflip::cdt::Cdt;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion, NumberType};
 use tetflip::report::Report;
 
 pub fn insertion(c: &mut Criterion) {
@@ -19,9 +19,12 @@ pub fn insertion(c: &mut Criterion) {
         .throughput(Throughput::Elements(crossing));
     for (name, insertion) in [
         ("cavity", Insertion::Cavity),
-        ("flips f64", Insertion::Flip(Times::F64)),
-        ("flips filtered", Insertion::Flip(Times::Filtered)),
-        ("flips exact", Insertion::Flip(Times::Exact)),
+        (
+            "flips f64",
+            Insertion::Flip(FlipOrder::new(NumberType::F64)),
+        ),
+        ("flips filtered", Insertion::Flip(FlipOrder::FILTERED)),
+        ("flips exact", Insertion::Flip(FlipOrder::EXACT)),
     ] {
         group.bench_function(name, |b| {
             b.iter_batched_ref(

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
 use tetflip::lab::Shard;
-use tetflip::recover::polygons::Times;
+use tetflip::recover::polygons::FlipOrder;
 use tetflip_experiments::families::Member;
 use tetflip_experiments::frame::ledger::{Entry, Ledger};
 use tetflip_experiments::frame::machine::Machine;
@@ -40,7 +40,7 @@ enum Verb {
         input: Member,
         /// The number type of the flip times.
         #[arg(long, default_value = "f64")]
-        times: Times,
+        times: FlipOrder,
         /// Writes the PLC to this file, too.
         #[arg(long, value_name = "FILE.poly")]
         write: Option<PathBuf>,
@@ -190,7 +190,7 @@ fn list() {
     }
 }
 
-fn replay(input: Member, times: Times, write: Option<&Path>) -> Result<bool, Failed> {
+fn replay(input: Member, times: FlipOrder, write: Option<&Path>) -> Result<bool, Failed> {
     if let Some(path) = write {
         tetflip::format::write_poly(path, &input.prepare().plc)?;
     }

@@ -15,9 +15,9 @@ use crate::mesh::{Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, PlcError};
 use crate::predicate::{DoublePoints, PointStore, Steiner};
 use crate::recover::flatten::{Pieces, flatten};
-use crate::recover::flips::Watch;
+use crate::recover::flips::{FlipObserver, FlipRegion};
 use crate::recover::polygons::{
-    Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons, Times,
+    FlipOrder, Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons,
 };
 use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 use crate::report::{Phase, Report};
@@ -42,7 +42,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Options {
         Options {
-            insertion: Insertion::Flip(Times::Filtered),
+            insertion: Insertion::Flip(FlipOrder::FILTERED),
             keep_hull: false,
             merge_coplanar: true,
             steiner: Steiner::Rounded,
@@ -172,28 +172,46 @@ impl Cdt<DoublePoints> {
         report: &mut Report,
         progress: &mut dyn FnMut(usize),
     ) -> Result<PolygonCounts, Failure> {
-        self.insert_polygons_watched(insertion, report, progress, None)
+        self.insert_polygons_observed(insertion, report, progress, None)
     }
 
     /// [`Cdt::insert_polygons`], with somebody who is told about every flip.
     ///
     /// # Errors
     /// The same.
-    pub fn insert_polygons_watched<'a>(
+    pub fn insert_polygons_observed<'a>(
         &'a mut self,
         insertion: Insertion,
         report: &mut Report,
         progress: &mut dyn FnMut(usize),
-        watch: Option<&'a mut dyn Watch>,
+        observer: Option<&'a mut dyn FlipObserver>,
     ) -> Result<PolygonCounts, Failure> {
         // Progress is told in polygons of the complex.
         let pieces = self.pieces.clone_firsts();
         let cut = (0..self.complex.polygons.len()).filter(|&f| self.pieces.is_cut(f));
         let not_flat = cut.count() as u64;
-        self.insert(insertion, not_flat, report, watch, |polygons| {
+        self.insert(Ok(insertion), not_flat, report, observer, |polygons| {
             polygons.insert_all(&mut |done| {
                 progress(pieces.partition_point(|&first| first <= done) - 1)
             })
+        })
+    }
+
+    /// [`Cdt::insert_polygons`] by flips in numbers of the caller's own
+    /// ([`FlipNumbers`](crate::recover::flips::FlipNumbers)). The report names no insertion then.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn insert_polygons_in<'a>(
+        &'a mut self,
+        numbers: &'a dyn FlipRegion<DoublePoints>,
+        report: &mut Report,
+        observer: Option<&'a mut dyn FlipObserver>,
+    ) -> Result<PolygonCounts, Failure> {
+        let cut = (0..self.complex.polygons.len()).filter(|&f| self.pieces.is_cut(f));
+        let not_flat = cut.count() as u64;
+        self.insert(Err(numbers), not_flat, report, observer, |polygons| {
+            polygons.insert_all(&mut |_| ())
         })
     }
 
@@ -213,20 +231,21 @@ impl Cdt<DoublePoints> {
         }
         let mut pieces = self.pieces.of(f);
         let not_flat = u64::from(self.pieces.is_cut(f));
-        self.insert(insertion, not_flat, report, None, |polygons| {
+        self.insert(Ok(insertion), not_flat, report, None, |polygons| {
             pieces.try_for_each(|piece| polygons.insert(piece))
         })
     }
 
+    /// By an algorithm of the crate, or by flips in numbers of the caller's own.
     fn insert<'a>(
         &'a mut self,
-        insertion: Insertion,
+        by: Result<Insertion, &'a dyn FlipRegion<DoublePoints>>,
         not_flat: u64,
         report: &mut Report,
-        watch: Option<&'a mut dyn Watch>,
+        observer: Option<&'a mut dyn FlipObserver>,
         run: impl FnOnce(&mut PolygonInsertion<DoublePoints>) -> Result<(), Failure>,
     ) -> Result<PolygonCounts, Failure> {
-        report.insertion = Some(insertion);
+        report.insertion = by.ok();
         report.time(Phase::Polygons, move |report| {
             let mut polygons = PolygonInsertion {
                 points: &self.points,
@@ -237,11 +256,12 @@ impl Cdt<DoublePoints> {
                 index: &self.index,
                 subpolygons: &mut self.subpolygons,
                 inserted: &mut self.inserted,
-                insertion,
+                insertion: by.unwrap_or(Insertion::Flip(FlipOrder::FILTERED)),
                 counts: PolygonCounts::default(),
                 candidates: Vec::new(),
                 scratch: &mut self.scratch,
-                watch,
+                own_flips: by.err(),
+                observer,
             };
             let result = run(&mut polygons);
             let mut counts = polygons.counts;
@@ -271,7 +291,7 @@ impl Cdt<DoublePoints> {
     ///
     /// ```
     /// # use tetflip::{cdt::Cdt, error::DeletionRefused, mesh::VertexId, plc::{Facet, Plc}};
-    /// # use tetflip::{recover::polygons::{Insertion, Times}, report::Report};
+    /// # use tetflip::{recover::polygons::{FlipOrder, Insertion}, report::Report};
     /// // A triangle, and a pair of vertices whose common edge passes through it.
     /// let vertices = vec![[0., 0., 0.], [9., 0., 0.], [0., 9., 0.], [2., 2., 1.], [2., 2., -1.]];
     /// let triangle = [0, 1, 2].map(VertexId).to_vec();
@@ -283,7 +303,7 @@ impl Cdt<DoublePoints> {
     /// assert_eq!(cdt.mesh.finite().count(), 3);
     /// let f = cdt.polygon_of_facet(0).expect("facet 0 has an area");
     ///
-    /// cdt.insert_polygon(f, Insertion::Flip(Times::Filtered), &mut report)?;
+    /// cdt.insert_polygon(f, Insertion::Flip(FlipOrder::FILTERED), &mut report)?;
     /// assert_eq!(cdt.mesh.finite().count(), 2);
     ///
     /// let counts = cdt.delete_polygon(f)?;
@@ -298,7 +318,7 @@ impl Cdt<DoublePoints> {
     /// # Errors
     /// Why it cannot be deleted. The mesh then has the tetrahedra that it had.
     pub fn delete_polygon(&mut self, f: usize) -> Result<DeletionCounts, DeletionRefused> {
-        self.delete_polygon_by(f, Times::Filtered)
+        self.delete_polygon_by(f, FlipOrder::FILTERED)
     }
 
     /// [`Cdt::delete_polygon`] with a choice of how flip times are represented. With exact ones the result is the same;
@@ -310,7 +330,7 @@ impl Cdt<DoublePoints> {
     pub fn delete_polygon_by(
         &mut self,
         f: usize,
-        times: Times,
+        order: FlipOrder,
     ) -> Result<DeletionCounts, DeletionRefused> {
         let polygon = self.complex.polygons.get(f);
         let polygon = polygon.ok_or(DeletionRefused::NoSuchPolygon(f))?;
@@ -331,7 +351,7 @@ impl Cdt<DoublePoints> {
         let mut counts = DeletionCounts::default();
         let mut refused = None;
         for piece in self.pieces.of(f) {
-            match deletion.delete(piece, times) {
+            match deletion.delete(piece, order) {
                 Ok(of_piece) => {
                     counts.add(&of_piece);
                     self.inserted[piece] = false;
@@ -346,8 +366,12 @@ impl Cdt<DoublePoints> {
             return Ok(counts);
         };
         // What has been deleted of it can be inserted, as it was.
-        self.insert_polygon(f, Insertion::Flip(Times::Filtered), &mut Report::default())
-            .expect("it was in the mesh");
+        self.insert_polygon(
+            f,
+            Insertion::Flip(FlipOrder::FILTERED),
+            &mut Report::default(),
+        )
+        .expect("it was in the mesh");
         Err(reason)
     }
 

@@ -11,7 +11,7 @@ use tetflip::error::{Failure, GaveUp, InvalidPlc};
 use tetflip::exchange::Plc;
 use tetflip::format::{write_complete, write_poly};
 use tetflip::predicate::Steiner;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
@@ -33,7 +33,7 @@ pub(crate) struct MeshArguments {
     /// 36, 40, 44, 48, 53, 64, 80, 106, 160 or 256.
     /// [default: filtered]
     #[arg(long, value_name = "TYPE")]
-    times: Option<Times>,
+    times: Option<FlipOrder>,
     /// How Steiner points on segments are represented.
     #[arg(long, value_enum, default_value_t = SteinerArgument::Auto)]
     steiner: SteinerArgument,
@@ -224,7 +224,7 @@ fn spoilt_by_rounding(tets: &[usize], first_index: u32) -> String {
 
 fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
     match (arguments.insert, arguments.times) {
-        (InsertArgument::Flip, times) => Ok(Insertion::Flip(times.unwrap_or(Times::Filtered))),
+        (InsertArgument::Flip, times) => Ok(Insertion::Flip(times.unwrap_or(FlipOrder::FILTERED))),
         (_, Some(times)) => Err(Stop::input(format!(
             "--times {times} is about flips: it needs --insert flip"
         ))),
@@ -290,7 +290,7 @@ fn dump_region(arguments: &MeshArguments, region: &Plc) -> String {
         return format!("; the region cannot be written: {error}");
     }
     // Filtered is also what cavities fall back on.
-    let times = arguments.times.unwrap_or(Times::Filtered);
+    let times = arguments.times.unwrap_or(FlipOrder::FILTERED);
     let path = path.display();
     format!(
         "\nits region is in {path}; try again with: tetflip mesh {path} --hull --insert flip --times {times}"

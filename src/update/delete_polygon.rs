@@ -9,7 +9,7 @@ use crate::mesh::{Corner, Incidence, TetId, TetMesh, VertexId};
 use crate::plc::Complex;
 use crate::predicate::PointStore;
 use crate::recover::flips::{Blocked, FlipCounts, Kept, flip_delete};
-use crate::recover::method::Times;
+use crate::recover::method::FlipOrder;
 use crate::recover::polygons::{Scratch, Subpolygons, boundary_subsegments};
 use crate::recover::region::Sides;
 use crate::recover::segments::{SegmentIndex, Subsegments};
@@ -65,7 +65,11 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
     ///
     /// # Errors
     /// What is in the way.
-    pub fn delete(&mut self, f: usize, times: Times) -> Result<DeletionCounts, DeletionRefused> {
+    pub fn delete(
+        &mut self,
+        f: usize,
+        order: FlipOrder,
+    ) -> Result<DeletionCounts, DeletionRefused> {
         let polygon = &self.complex.polygons[f];
         let boundary = boundary_subsegments(self.subsegments, self.index, polygon);
         let on_boundary = boundary.iter().flatten().copied();
@@ -75,10 +79,10 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
             polygon.vertices.iter().copied().chain(on_boundary),
             std::mem::take(&mut self.scratch.sides),
         );
-        let mut result = self.by_flips(f, &sides, &boundary, times);
+        let mut result = self.by_flips(f, &sides, &boundary, order);
         if !sides.flat && result.is_err() {
             // It may have been inserted from behind.
-            result = self.by_flips(f, &sides.reversed(), &boundary, times);
+            result = self.by_flips(f, &sides.reversed(), &boundary, order);
         }
         let flat = sides.flat;
         self.scratch.sides = sides.into_table();
@@ -97,7 +101,7 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
         f: usize,
         sides: &Sides<P>,
         boundary: &[[VertexId; 2]],
-        times: Times,
+        order: FlipOrder,
     ) -> Result<DeletionCounts, Blocked> {
         let corners = self.faces(f, boundary);
         let faces: Vec<Face> = corners.iter().map(|&c| face(self.mesh.facet(c))).collect();
@@ -107,7 +111,7 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
             triangle: &|t| subpolygons.get(&t).is_some_and(|&g| g as usize != f),
         };
         let scratch = &mut self.scratch.flips;
-        let deleted = flip_delete(self.mesh, sides, &corners, kept, times, scratch);
+        let deleted = flip_delete(self.mesh, sides, &corners, kept, order, scratch);
         self.incidence.update(self.mesh, &deleted.tets);
         if let Some(blocked) = deleted.blocked {
             return Err(blocked);

@@ -11,7 +11,7 @@ use tetflip::error::{Failure, GaveUp};
 use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
-use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion, NumberType, PolygonCounts};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
@@ -38,7 +38,7 @@ fn assert_verified(plc: &Plc, mesh: &ExportedMesh) {
 /// The exact algorithms on one PLC, whose polygons must all be flat with the Steiner points: equal meshes, or the same
 /// complaint about the input. Returns the mesh.
 fn agree(plc: &Plc) -> Option<ExportedMesh> {
-    let flips = run(plc, Insertion::Flip(Times::Exact));
+    let flips = run(plc, Insertion::Flip(FlipOrder::EXACT));
     let cavity = run(plc, Insertion::Cavity);
     let (flips, cavity) = match (flips, cavity) {
         (Ok(flips), Ok(cavity)) => (flips, cavity),
@@ -66,7 +66,7 @@ fn agree(plc: &Plc) -> Option<ExportedMesh> {
     if wrapped.1.not_flat == 0 {
         assert_eq!(wrapped.1.flip_fallbacks + cavity.1.flip_fallbacks, 0);
     }
-    let filtered = run(plc, Insertion::Flip(Times::Filtered)).expect("as with exact times");
+    let filtered = run(plc, Insertion::Flip(FlipOrder::FILTERED)).expect("as with exact times");
     assert_eq!(filtered.0, flips.0);
     assert_eq!(
         filtered.1.flips.flips(),
@@ -76,7 +76,8 @@ fn agree(plc: &Plc) -> Option<ExportedMesh> {
     assert_verified(plc, &flips.0);
     #[cfg(feature = "rug")]
     {
-        let rug = run(plc, Insertion::Flip(Times::Rug)).expect("as the other exact number type");
+        let rug = run(plc, Insertion::Flip(FlipOrder::new(NumberType::Rug)))
+            .expect("as the other exact number type");
         assert_eq!(rug.0, flips.0);
         assert_eq!(
             rug.1.flips, flips.1.flips,
@@ -120,7 +121,7 @@ proptest! {
         let (mut reordered, n) = (plc.clone(), plc.facets.len());
         reordered.facets.swap(0, seed % n);
         reordered.facets.swap(1, seed / n % n);
-        for insertion in [Insertion::Cavity, Insertion::GiftWrap, Insertion::Flip(Times::Exact)] {
+        for insertion in [Insertion::Cavity, Insertion::GiftWrap, Insertion::Flip(FlipOrder::EXACT)] {
             let (Ok(a), Ok(b)) = (run(&plc, insertion), run(&reordered, insertion)) else { continue };
             // Segments are numbered by first appearance, so Steiner points may differ; without them the meshes are equal.
             if a.0.vertices.len() == plc.vertices.len() {
@@ -133,7 +134,7 @@ proptest! {
     #[test]
     fn rounded_times_end_in_a_mesh_or_an_outcome(plc in lattice_with_rectangle()) {
         let Some(exact) = agree(&plc) else { return Ok(()) };
-        for times in [Times::F32, Times::F64] {
+        for times in [FlipOrder::new(NumberType::F32), FlipOrder::new(NumberType::F64)] {
             match run(&plc, Insertion::Flip(times)) {
                 Ok((mesh, _)) => prop_assert_eq!(&mesh, &exact),
                 Err(Failure::GaveUp(GaveUp::Stuck { .. } | GaveUp::NotDelaunay { .. })) => {}
@@ -159,7 +160,7 @@ fn four_four_flip_certifies_its_own_plane() {
     let mut plc = plc_of_points(points.map(|p| p.map(f64::from)).to_vec());
     plc.facets.push(facet(&[3, 4, 2]));
     assert!(agree(&plc).is_some());
-    let (_, counts) = run(&plc, Insertion::Flip(Times::Exact)).expect("a valid PLC");
+    let (_, counts) = run(&plc, Insertion::Flip(FlipOrder::EXACT)).expect("a valid PLC");
     assert!(counts.flips.four_four > 0);
 }
 
@@ -180,7 +181,7 @@ fn cavities_swallow_and_displace() {
         displaced += counts.displaced;
         reinserted += counts.reinserted;
         if counts.swallowed > 0 {
-            let flips = run(&plc, Insertion::Flip(Times::Filtered)).expect("as by cavities");
+            let flips = run(&plc, Insertion::Flip(FlipOrder::FILTERED)).expect("as by cavities");
             assert_eq!(mesh, flips.0);
             // Where a cavity grows, one of its walls is not Delaunay, and hides vertices.
             let wrapped = run(&plc, Insertion::GiftWrap).expect("as by cavities");

@@ -12,15 +12,15 @@ use tetflip::exchange::{Plc, Segment};
 use tetflip::mesh::{TetMesh, VertexId};
 use tetflip::predicate::PointStore;
 use tetflip::recover::flips::{
-    Blocked, Deleted, FilteredTimes, FlipCounts, FlipDeletion, Kept, Motion,
+    Blocked, Deleted, FilteredTimes, FlipCounts, FlipDeletion, Kept, PolygonMotion,
 };
-use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion, NumberType, PolygonCounts};
 use tetflip::recover::tables::Table;
 use tetflip::report::Report;
 use tetflip::update::DeletionCounts;
 use tetflip::verify::{Counts, Domain, VerifyOptions, verify};
 
-const FLIPS: Insertion = Insertion::Flip(Times::Filtered);
+const FLIPS: Insertion = Insertion::Flip(FlipOrder::FILTERED);
 
 /// The tetrahedra, after a check of the topology.
 fn tets(cdt: &Cdt) -> Vec<[VertexId; 4]> {
@@ -103,7 +103,7 @@ fn delete(cdt: &mut Cdt, f: usize) -> DeletionCounts {
     let mut exact = cdt.clone();
     let mut rounded = cdt.clone();
     let counts = cdt.delete_polygon(f).expect("a flat polygon");
-    let exact_counts = exact.delete_polygon_by(f, Times::Exact);
+    let exact_counts = exact.delete_polygon_by(f, FlipOrder::EXACT);
     let exact_counts = exact_counts.expect("a flat polygon");
     assert_eq!(tets(cdt), tets(&exact));
     let events = |c: &DeletionCounts| (c.flips.flips(), c.flips.queued, c.flips.stale);
@@ -111,11 +111,14 @@ fn delete(cdt: &mut Cdt, f: usize) -> DeletionCounts {
     #[cfg(feature = "rug")]
     {
         let mut rug = rounded.clone();
-        let rug_counts = rug.delete_polygon_by(f, Times::Rug);
+        let rug_counts = rug.delete_polygon_by(f, FlipOrder::new(NumberType::Rug));
         assert_eq!(rug_counts, Ok(exact_counts));
         assert_eq!(tets(&rug), tets(&exact));
     }
-    for times in [Times::F64, Times::F32] {
+    for times in [
+        FlipOrder::new(NumberType::F64),
+        FlipOrder::new(NumberType::F32),
+    ] {
         match rounded.delete_polygon_by(f, times) {
             Ok(_) => {
                 assert_eq!(tets(&rounded), tets(cdt));
@@ -286,7 +289,7 @@ fn delete_around(cdt: &mut Cdt, edges: &[[VertexId; 2]], triangles: &[[VertexId;
         .collect();
     let [a, b, c] = polygon.frame;
     let is_left = |v| cdt.points.orient3d([a, b, c, v]).is_positive();
-    let motion = Motion::new(&cdt.points, polygon.frame, &is_left);
+    let motion = PolygonMotion::new(&cdt.points, polygon.frame, &is_left);
     let kept = Kept {
         edge: &|e| bounds.contains(&e) || edges.contains(&e),
         triangle: &|t| triangles.contains(&t),

@@ -10,7 +10,7 @@ use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::Plc;
 use tetflip::format::{read_mesh, write_mesh};
 use tetflip::predicate::{DoublePoints, PointStore, Steiner};
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, Verdict, VerifyOptions, verify};
 
@@ -63,7 +63,7 @@ fn turned(mut plc: Plc, [a, b]: [f64; 2]) -> Plc {
 
 /// All algorithms, or the same complaint about the input. A polygon is never not flat.
 fn agree(plc: &Plc) -> Option<(ExportedMesh, Report)> {
-    let flips = run(plc, Steiner::Exact, Insertion::Flip(Times::Filtered));
+    let flips = run(plc, Steiner::Exact, Insertion::Flip(FlipOrder::FILTERED));
     let cavity = run(plc, Steiner::Exact, Insertion::Cavity);
     let (flips, cavity) = match (flips, cavity) {
         (Ok(flips), Ok(cavity)) => (flips, cavity),
@@ -78,7 +78,8 @@ fn agree(plc: &Plc) -> Option<(ExportedMesh, Report)> {
         (a, b) => panic!("flips {:?}, cavity {:?}", a.err(), b.err()),
     };
     assert_eq!(flips.0, cavity.0);
-    let exact = run(plc, Steiner::Exact, Insertion::Flip(Times::Exact)).expect("as filtered ones");
+    let exact =
+        run(plc, Steiner::Exact, Insertion::Flip(FlipOrder::EXACT)).expect("as filtered ones");
     assert_eq!(flips.0, exact.0);
     for report in [&flips.1, &cavity.1] {
         assert_eq!(report.insertion_counts.not_flat, 0);
@@ -141,7 +142,7 @@ proptest! {
     /// Where no Steiner point needs more bits than a double has, exact and rounded ones are the same.
     #[test]
     fn without_rounding_both_are_one(plc in prop_oneof![walls(), crossing_planes(), sphere()]) {
-        let filtered = Insertion::Flip(Times::Filtered);
+        let filtered = Insertion::Flip(FlipOrder::FILTERED);
         if let (Ok(exact), Ok(rounded)) = (run(&plc, Steiner::Exact, filtered), run(&plc, Steiner::Rounded, filtered))
             && exact.1.steiner_not_doubles == 0
         {
@@ -154,7 +155,7 @@ proptest! {
     fn deletion_is_undone(plc in walls(), s in [factor(), factor(), factor()], turn in [0.0..7.0, 0.0..7.0], which in any::<prop::sample::Index>()) {
         for plc in [stretched(plc.clone(), s), turned(plc, turn)] {
             let mut report = Report::default();
-            let filtered = Insertion::Flip(Times::Filtered);
+            let filtered = Insertion::Flip(FlipOrder::FILTERED);
             let mut cdt = Cdt::begin(&plc, &options(Steiner::Exact, filtered), &mut report).expect("a valid PLC");
             cdt.insert_polygons(filtered, &mut report, &mut quiet).expect("a valid PLC");
             let before = cdt.export(&plc, true, &mut report).expect("a hull");

@@ -17,7 +17,7 @@ use tetflip::exchange::{Facet, Plc, Region, Segment};
 use tetflip::mesh::VertexId;
 use tetflip::number::Bits;
 use tetflip::predicate::{DoublePoints, Steiner};
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion, NumberType};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
@@ -27,12 +27,12 @@ const PATIENCE: Duration = Duration::from_secs(120);
 const INSERTIONS: [Insertion; 7] = [
     Insertion::Cavity,
     Insertion::GiftWrap,
-    Insertion::Flip(Times::Exact),
-    Insertion::Flip(Times::F64),
-    Insertion::Flip(Times::F32),
-    Insertion::Flip(Times::Naive),
+    Insertion::Flip(FlipOrder::EXACT),
+    Insertion::Flip(FlipOrder::new(NumberType::F64)),
+    Insertion::Flip(FlipOrder::new(NumberType::F32)),
+    Insertion::Flip(FlipOrder::new(NumberType::Naive)),
     // Eight bits.
-    Insertion::Flip(Times::NaiveWide(Bits::ALL[0])),
+    Insertion::Flip(FlipOrder::new(NumberType::NaiveWide(Bits::ALL[0]))),
 ];
 
 fn config(cases: u32) -> ProptestConfig {
@@ -143,7 +143,7 @@ fn check_exactly(plc: &Plc, keep_hull: bool, merge_coplanar: bool) {
     let (send, receive) = mpsc::channel();
     let input = plc.clone();
     let thread = std::thread::spawn(move || {
-        for insertion in [Insertion::Cavity, Insertion::Flip(Times::Filtered)] {
+        for insertion in [Insertion::Cavity, Insertion::Flip(FlipOrder::FILTERED)] {
             let options = Options {
                 insertion,
                 keep_hull,

@@ -10,7 +10,7 @@ use tetflip::exchange::Plc;
 use tetflip::generate::{Kind, generate};
 use tetflip::plc::Complex;
 use tetflip::predicate::Steiner;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 use tetflip::verify::{Verdict, VerifyOptions, verify};
 
@@ -96,7 +96,7 @@ fn verified(plc: &Plc, mesh: &ExportedMesh, name: &str) -> Verdict {
 
 /// By flips and by cavities, with rounded Steiner points or, where these have no solution, with exact ones.
 fn mesh_by_both(plc: &Plc, name: &str) -> ExportedMesh {
-    let [flips, cavities] = [Insertion::Flip(Times::Filtered), Insertion::Cavity];
+    let [flips, cavities] = [Insertion::Flip(FlipOrder::FILTERED), Insertion::Cavity];
     for steiner in [Steiner::Rounded, Steiner::Exact] {
         match (mesh(plc, flips, steiner), mesh(plc, cavities, steiner)) {
             (Ok(first), Ok(second)) => {

@@ -8,6 +8,7 @@ mod complex;
 mod delaunay;
 mod deletion;
 mod exact_steiner;
+mod examples;
 mod fixtures;
 mod format;
 mod fuzz_formats;

@@ -12,11 +12,11 @@ use tetflip::mesh::VertexId;
 use tetflip::predicate::Steiner;
 use tetflip::recover::flatten::FlatteningCounts;
 use tetflip::recover::flatten::ShimCounts;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
-const INSERTIONS: [Insertion; 2] = [Insertion::Flip(Times::Filtered), Insertion::Cavity];
+const INSERTIONS: [Insertion; 2] = [Insertion::Flip(FlipOrder::FILTERED), Insertion::Cavity];
 
 /// The mesh's counts, or what went wrong.
 fn run(plc: &Plc, insertion: Insertion, keep_hull: bool) -> Result<FlatteningCounts, String> {
@@ -113,8 +113,8 @@ fn many_of_every_family() {
 #[test]
 fn algorithms_agree() {
     let insertions = [
-        Insertion::Flip(Times::Filtered),
-        Insertion::Flip(Times::Exact),
+        Insertion::Flip(FlipOrder::FILTERED),
+        Insertion::Flip(FlipOrder::EXACT),
         Insertion::Cavity,
         Insertion::GiftWrap,
     ];

@@ -12,7 +12,7 @@ use tetflip::error::{Failure, GaveUp};
 use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
 use tetflip::predicate::PointStore;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 
 fn config(cases: u32) -> ProptestConfig {
@@ -30,7 +30,7 @@ fn config(cases: u32) -> ProptestConfig {
 const ROUNDED: &str =
     "naive naive:8 naive:14 naive:24 naive:53 naive:106 f32 f64 bits:8 bits:24 bits:53 bits:106";
 
-fn times(word: &str) -> Times {
+fn times(word: &str) -> FlipOrder {
     word.parse().expect("a number type")
 }
 
@@ -45,7 +45,7 @@ fn scene(points: Vec<[f64; 3]>, corners: usize) -> Plc {
 }
 
 /// All polygons inserted; the mesh in any case.
-fn insert(plc: &Plc, times: Times) -> Result<(Cdt, Result<(), Failure>), Failure> {
+fn insert(plc: &Plc, times: FlipOrder) -> Result<(Cdt, Result<(), Failure>), Failure> {
     let mut cdt = Cdt::with_segments(plc, true, &mut Report::default())?;
     let inserted = cdt.insert_polygons(Insertion::Flip(times), &mut Report::default(), &mut quiet);
     Ok((cdt, inserted.map(|_| ())))
@@ -54,7 +54,7 @@ fn insert(plc: &Plc, times: Times) -> Result<(Cdt, Result<(), Failure>), Failure
 /// What must hold on a PLC with one polygon.
 fn check(plc: &Plc) {
     // The vertices may be on one plane, and two of them on one place.
-    let Ok((exact, Ok(()))) = insert(plc, Times::Filtered) else {
+    let Ok((exact, Ok(()))) = insert(plc, FlipOrder::FILTERED) else {
         return;
     };
     for word in ROUNDED.split(' ') {
@@ -78,14 +78,14 @@ fn check(plc: &Plc) {
 }
 
 /// The region is a PLC of some of the vertices, in their order, with Steiner points behind, in which exact flips succeed.
-fn check_region(region: &Plc, plc: &Plc, times: Times) {
+fn check_region(region: &Plc, plc: &Plc, times: FlipOrder) {
     let place = |p| plc.vertices.iter().position(|q| q == p);
     let places = region
         .vertices
         .iter()
         .map(|p| place(p).unwrap_or(usize::MAX));
     assert!(places.is_sorted(), "{region:?}");
-    let (_, exact) = insert(region, Times::Filtered).expect("a region spans space");
+    let (_, exact) = insert(region, FlipOrder::FILTERED).expect("a region spans space");
     assert_eq!(exact, Ok(()), "{region:?}");
     // The same failure in most cases, but not in all: equal times are flipped in order of arrival.
     let (again, outcome) = insert(region, times).expect("a region spans space");

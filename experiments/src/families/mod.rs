@@ -217,7 +217,7 @@ fn doubles(points: impl IntoIterator<Item = [i32; 3]>) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tetflip::recover::polygons::{Insertion, Times};
+    use tetflip::recover::polygons::{FlipOrder, Insertion};
     use tetflip::verify::{Domain, VerifyOptions, verify};
 
     #[test]
@@ -229,7 +229,7 @@ mod tests {
                 steiner_points,
             } = member.prepare();
             let mut report = Report::default();
-            let insertion = Insertion::Flip(Times::Filtered);
+            let insertion = Insertion::Flip(FlipOrder::FILTERED);
             let counts = cdt.insert_polygons(insertion, &mut report, &mut |_| ());
             let counts = counts.unwrap_or_else(|e| panic!("{member}: {e}"));
             assert_eq!(counts.not_flat, 0, "{member}");
@@ -267,7 +267,7 @@ mod tests {
                 let of_kind = |m: &&Member| (m.family(), m.subfamily()) == kind;
                 for member in members.iter().filter(of_kind) {
                     let mut cdt = member.prepare().cdt;
-                    let insertion = Insertion::Flip(Times::Filtered);
+                    let insertion = Insertion::Flip(FlipOrder::FILTERED);
                     let counts =
                         cdt.insert_polygons(insertion, &mut Report::default(), &mut |_| ());
                     flips += usize::from(counts.expect("exact order").flips.flips() > 1);

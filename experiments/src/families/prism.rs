@@ -206,29 +206,29 @@ mod tests {
     use tetflip::error::{Failure, GaveUp};
     use tetflip::mesh::VertexId;
     use tetflip::recover::flips::Fate;
-    use tetflip::recover::polygons::{Insertion, Times};
+    use tetflip::recover::polygons::{FlipOrder, Insertion, NumberType};
     use tetflip::report::Report;
 
-    fn run(times: Times) -> (Cdt, Trace, Result<(), Failure>) {
+    fn run(times: FlipOrder) -> (Cdt, Trace, Result<(), Failure>) {
         let mut report = Report::default();
         let mut cdt = Cdt::with_segments(&paper_failure(), true, &mut report).expect("segments");
         let (before, mut trace) = (cdt.clone(), Trace::default());
         let insertion = Insertion::Flip(times);
         let result =
-            cdt.insert_polygons_watched(insertion, &mut report, &mut |_| (), Some(&mut trace));
+            cdt.insert_polygons_observed(insertion, &mut report, &mut |_| (), Some(&mut trace));
         (before, trace, result.map(|_| ()))
     }
 
     #[test]
     fn rounded_order_locks_itself_in_schoenhardts_polyhedron() {
-        let (cdt, trace, result) = run(Times::F64);
+        let (cdt, trace, result) = run(FlipOrder::new(NumberType::F64));
         let [insertion] = trace.insertions.as_slice() else {
             panic!("one region");
         };
         // The fan: seven tetrahedra, all with the seventh vertex.
         assert_eq!(insertion.before.len(), 7);
         assert!(insertion.before.iter().all(|t| t.contains(&VertexId(6))));
-        let d = disorder(&cdt.points, insertion, Times::F64);
+        let d = disorder(&cdt.points, insertion, FlipOrder::new(NumberType::F64));
         assert!(d.adjacent >= 2 && d.kendall > 2, "{d:?}");
         // The first event is the last one in the exact order, and the only one that is flipped.
         assert_eq!(
@@ -257,7 +257,7 @@ mod tests {
 
     #[test]
     fn exact_order_succeeds() {
-        for times in [Times::Exact, Times::Filtered] {
+        for times in [FlipOrder::EXACT, FlipOrder::FILTERED] {
             let (cdt, trace, result) = run(times);
             assert_eq!(result, Ok(()));
             let d = disorder(&cdt.points, &trace.insertions[0], times);

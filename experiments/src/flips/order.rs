@@ -12,14 +12,15 @@
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
-use tetflip::mesh::{TetId, VertexId};
+use tetflip::kinetic::{Quotient, TimeOrder};
+use tetflip::mesh::VertexId;
 use tetflip::number::Dyadic;
 use tetflip::predicate::PointStore;
 use tetflip::recover::flips::{
-    Event, ExactTimes, Fate, FlipOutcome, FlipTimes, Motion, Quotient, RoundedTimes, Signs, Timing,
-    Watch, WideTimes,
+    Event, ExactTimes, Exactness, Fate, FlipNumbers, FlipObserver, FlipOutcome, FlipTime,
+    FlipTimes, NumberTask, PolygonMotion,
 };
-use tetflip::recover::polygons::Times;
+use tetflip::recover::polygons::FlipOrder;
 
 /// The circuit of an event: v, x, y, z, w of the triangle xyz between the tetrahedra vxyz and wxzy.
 pub type Circuit = [VertexId; 5];
@@ -46,7 +47,7 @@ pub struct Trace {
     pub insertions: Vec<Insertion>,
 }
 
-impl Watch for Trace {
+impl FlipObserver for Trace {
     fn begin(&mut self, polygon: usize, frame: [VertexId; 3], region: &[[VertexId; 4]]) {
         self.insertions.push(Insertion {
             polygon,
@@ -133,7 +134,7 @@ pub fn is_left<P: PointStore>(points: &P, [a, b, c]: [VertexId; 3], v: VertexId)
 /// have queued.
 pub fn exact_ranks<P: PointStore>(points: &P, insertion: &Insertion) -> Vec<Option<usize>> {
     let left = |v| is_left(points, insertion.frame, v);
-    let motion = Motion::new(points, insertion.frame, &left);
+    let motion = PolygonMotion::new(points, insertion.frame, &left);
     let mut exact = ExactTimes::<P, Dyadic>::new(&motion);
     let circuits = popped_alive(insertion);
     let quotients: Vec<_> = circuits.iter().map(|&c| exact.quotient(c)).collect();
@@ -150,9 +151,9 @@ pub fn exact_ranks<P: PointStore>(points: &P, insertion: &Insertion) -> Vec<Opti
 
 /// The disorder of an insertion whose queue was ordered by `times`. O(n log n) exact comparisons for n different circuits:
 /// without exact predicates flips can go around in circles, and then the same few come off the queue again and again.
-pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: Times) -> Disorder {
+pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: FlipOrder) -> Disorder {
     let left = |v| is_left(points, insertion.frame, v);
-    let motion = Motion::new(points, insertion.frame, &left);
+    let motion = PolygonMotion::new(points, insertion.frame, &left);
     let circuits = popped_alive(insertion);
     let (places, exact_ties) = places(&mut ExactTimes::<P, Dyadic>::new(&motion), &circuits);
     let mut order: Vec<u64> = circuits
@@ -166,24 +167,15 @@ pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: Times) 
         (Some(p), Some(q)) => p == q,
         _ => false,
     };
-    let rounded_ties = match times {
-        Times::F32 => Some(ties(
-            &mut RoundedTimes::<P, f32>::new(&motion),
-            &circuits,
-            &mut is_one,
-        )),
-        Times::F64 => Some(ties(
-            &mut RoundedTimes::<P, f64>::new(&motion),
-            &circuits,
-            &mut is_one,
-        )),
-        Times::Wide(bits) => Some(ties(
-            &mut WideTimes::new(bits, &motion),
-            &circuits,
-            &mut is_one,
-        )),
-        _ => None,
-    };
+    let is_rounded = times.numbers.exactness() == Exactness::Rounded;
+    // With other rules no two times would be equal.
+    let rounded_ties = is_rounded.then(|| {
+        FlipOrder::new(times.numbers).run(RoundedTies {
+            motion: &motion,
+            circuits: &circuits,
+            is_one: &mut is_one,
+        })
+    });
     let (longest_list, list_left) = list_lengths(insertion);
     Disorder {
         events,
@@ -224,6 +216,21 @@ fn places<P: PointStore>(
     (places, ties)
 }
 
+/// Counts events whose rounded time is that of their predecessor.
+struct RoundedTies<'a, P> {
+    motion: &'a PolygonMotion<'a, P>,
+    circuits: &'a [Circuit],
+    is_one: &'a mut dyn FnMut(Circuit, Circuit) -> bool,
+}
+
+impl<P: PointStore> NumberTask for RoundedTies<'_, P> {
+    type Output = u64;
+
+    fn with<T: FlipNumbers>(self, numbers: &T) -> u64 {
+        ties(&mut numbers.times(self.motion), self.circuits, self.is_one)
+    }
+}
+
 /// Events whose time, as `times` computes it, is that of their predecessor.
 fn ties<C: FlipTimes>(
     times: &mut C,
@@ -232,18 +239,14 @@ fn ties<C: FlipTimes>(
 ) -> u64 {
     let mut events = Vec::new();
     for &circuit in circuits {
-        let timing = times.time(circuit);
-        let event = Event {
-            circuit,
-            tet: TetId(0),
-            signs: Signs::UNKNOWN,
-        };
-        events.extend(timing.map(|timing| (event, timing)));
+        let due = times.time(circuit);
+        events.extend(due.map(|due| (Event::of_circuit(circuit), due)));
     }
-    let mut compare = |a: &(Event, Timing<C::Key, C::Time>),
-                       b: &(Event, Timing<C::Key, C::Time>)| {
-        C::compare_keys(a.1.key, b.1.key)
-            .unwrap_or_else(|| times.compare((&a.0, &a.1.time), (&b.0, &b.1.time)))
+    let mut compare = |a: &(Event, FlipTime<C::Order>), b: &(Event, FlipTime<C::Order>)| {
+        C::Order::compare_keys(a.1.key, b.1.key).unwrap_or_else(|| {
+            let order = times.order();
+            order.compare((&a.0, &a.1.time), (&b.0, &b.1.time))
+        })
     };
     events.sort_by(&mut compare);
     let pairs = events.windows(2);
@@ -304,7 +307,7 @@ pub fn sort_counting_inversions<T: Copy>(
 mod tests {
     use super::*;
     use crate::families::{Draw, Member};
-    use tetflip::recover::flips::FlipKind;
+    use tetflip::recover::flips::{FlipKind, NumberType};
     use tetflip::recover::polygons::Insertion as Algorithm;
     use tetflip::report::Report;
 
@@ -323,12 +326,12 @@ mod tests {
         }
     }
 
-    fn trace(member: &str, times: Times) -> (tetflip::predicate::DoublePoints, Trace) {
+    fn trace(member: &str, times: FlipOrder) -> (tetflip::predicate::DoublePoints, Trace) {
         let mut cdt = member.parse::<Member>().expect("a name").prepare().cdt;
         let points = cdt.points.clone();
         let mut trace = Trace::default();
         let algorithm = Algorithm::Flip(times);
-        let _ = cdt.insert_polygons_watched(
+        let _ = cdt.insert_polygons_observed(
             algorithm,
             &mut Report::default(),
             &mut |_| (),
@@ -346,7 +349,7 @@ mod tests {
             "random/slab:1",
             "prism/right:2",
         ] {
-            for times in [Times::Exact, Times::Filtered] {
+            for times in [FlipOrder::EXACT, FlipOrder::FILTERED] {
                 let (points, trace) = trace(member, times);
                 assert!(!trace.insertions.is_empty());
                 for insertion in &trace.insertions {
@@ -362,10 +365,10 @@ mod tests {
 
     #[test]
     fn a_reversed_trace_is_all_inversions() {
-        let (points, trace) = trace("random/slab:1", Times::Exact);
+        let (points, trace) = trace("random/slab:1", FlipOrder::EXACT);
         let mut insertion = trace.insertions[0].clone();
         insertion.events.reverse();
-        let d = disorder(&points, &insertion, Times::F64);
+        let d = disorder(&points, &insertion, FlipOrder::new(NumberType::F64));
         // Two triangles of one circuit are in any order.
         let (n, most) = (d.events, d.events * (d.events - 1) / 2);
         assert!(d.kendall > most * 9 / 10 && d.kendall <= most, "{d:?}");

@@ -1,7 +1,7 @@
 //! The ways to insert polygons that the experiments compare, and their names in tables and plots.
 
 use std::fmt;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion, NumberType};
 
 /// One way to insert polygons.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -12,12 +12,12 @@ impl Method {
     /// that this build has. Gift wrapping takes quadratic time and is not among them.
     pub fn all() -> Vec<Method> {
         let times = [
-            Times::F32,
-            Times::F64,
-            Times::Exact,
-            Times::Filtered,
+            FlipOrder::new(NumberType::F32),
+            FlipOrder::new(NumberType::F64),
+            FlipOrder::EXACT,
+            FlipOrder::FILTERED,
             #[cfg(feature = "rug")]
-            Times::Rug,
+            FlipOrder::new(NumberType::Rug),
         ];
         let flips = times.into_iter().map(|t| Method(Insertion::Flip(t)));
         [Method(Insertion::Cavity)]

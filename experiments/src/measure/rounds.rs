@@ -192,7 +192,7 @@ fn is_cdt(plc: &Plc, mesh: &ExportedMesh) -> bool {
 mod tests {
     use super::*;
     use crate::inputs::slab::Slab;
-    use tetflip::recover::polygons::{Insertion, Times};
+    use tetflip::recover::polygons::{FlipOrder, Insertion};
 
     const SLAB: Slab = Slab {
         vertices: 40,
@@ -217,7 +217,7 @@ mod tests {
     #[test]
     fn slow_methods_sit_out_later_rounds() {
         let plc = SLAB.plc();
-        let is_slow = |m: Method| m.0 == Insertion::Flip(Times::Exact);
+        let is_slow = |m: Method| m.0 == Insertion::Flip(FlipOrder::EXACT);
         let scene = Scene::measure(&plc, &Method::all(), &EFFORT, is_slow).unwrap();
         for runs in &scene.runs {
             let expected = if is_slow(runs.method) { 2 } else { 5 };
@@ -239,7 +239,7 @@ mod tests {
         let mut report = Report::default();
         let mut cdt = Cdt::with_segments(&plc, true, &mut report).unwrap();
         let before = cdt.export(&plc, true, &mut report).unwrap();
-        let exact = Insertion::Flip(Times::Exact);
+        let exact = Insertion::Flip(FlipOrder::EXACT);
         cdt.insert_polygons(exact, &mut report, &mut |_| ())
             .unwrap();
         let after = cdt.export(&plc, true, &mut report).unwrap();

@@ -10,7 +10,9 @@ use std::collections::BTreeSet;
 use tetflip::mesh::VertexId;
 use tetflip::number::Dyadic;
 use tetflip::predicate::PointStore;
-use tetflip::recover::flips::{ExactTimes, Fate, FlipKind, FlipTimes, Motion, RoundedTimes};
+use tetflip::recover::flips::{
+    Evaluation, ExactTimes, Fate, FlipKind, FlipTimes, PolygonMotion, RoundedTimes, Rules,
+};
 
 /// A tetrahedron, its vertices ascending.
 pub type Tet = [VertexId; 4];
@@ -61,9 +63,9 @@ impl Film {
         let before: BTreeSet<Tet> = insertion.before.iter().map(|&t| sorted(t)).collect();
         let mut now = before.clone();
         let left = |v| is_left(points, insertion.frame, v);
-        let motion = Motion::new(points, insertion.frame, &left);
+        let motion = PolygonMotion::new(points, insertion.frame, &left);
         let mut exact = ExactTimes::<P, Dyadic>::new(&motion);
-        let mut rounded = RoundedTimes::<P, f64>::new(&motion);
+        let mut rounded = RoundedTimes::<P, f64>::new(&motion, Evaluation::Plain, Rules::default());
         let mut ranks = exact_ranks(points, insertion).into_iter();
         let mut frames = Vec::new();
         for &(circuit, fate) in &insertion.events {
@@ -220,9 +222,9 @@ mod tests {
     use super::*;
     use crate::families::Member;
     use crate::questions::flip_order::measure::watched;
-    use tetflip::recover::polygons::Times;
+    use tetflip::recover::polygons::{FlipOrder, NumberType};
 
-    fn films(member: &str, times: Times) -> Vec<Film> {
+    fn films(member: &str, times: FlipOrder) -> Vec<Film> {
         let member: Member = member.parse().expect("a name");
         let cdt = member.prepare().cdt;
         let (_, _, trace) = watched(&cdt, times);
@@ -240,7 +242,7 @@ mod tests {
                 "prism/right",
                 "random/slab",
             ] {
-                for times in [Times::Exact, Times::F64] {
+                for times in [FlipOrder::EXACT, FlipOrder::new(NumberType::F64)] {
                     for film in films(&format!("{family}:{seed}"), times) {
                         let count = |f: fn(&Fate) -> bool| {
                             film.frames.iter().filter(|frame| f(&frame.fate)).count()
@@ -249,7 +251,7 @@ mod tests {
                         listed += count(|f| matches!(f, Fate::FlippedFromList(_)));
                         patched += count(|f| matches!(f, Fate::FlippedNonCrossing(_)));
                         let exact: Vec<_> = film.frames.iter().map(|f| f.rank).collect();
-                        if times == Times::Exact {
+                        if times == FlipOrder::EXACT {
                             assert!(exact.iter().all(Option::is_some) && exact.is_sorted());
                         }
                     }
@@ -264,9 +266,9 @@ mod tests {
 
     #[test]
     fn the_paper_failure_leaves_seven_tetrahedra() {
-        let film = &films("prism/end:78", Times::F64)[0];
+        let film = &films("prism/end:78", FlipOrder::new(NumberType::F64))[0];
         assert_eq!((film.before.len(), film.end.len()), (7, 8));
-        let exact = &films("prism/end:78", Times::Exact)[0];
+        let exact = &films("prism/end:78", FlipOrder::EXACT)[0];
         let kinds: Vec<_> = exact.frames.iter().map(|f| kind(f.fate)).collect();
         assert_eq!(kinds, [Some(FlipKind::ThreeTwo); 3]);
     }

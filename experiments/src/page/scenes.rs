@@ -16,7 +16,7 @@ use tetflip::mesh::VertexId;
 use tetflip::exchange::Plc;
 use tetflip::predicate::PointStore;
 use tetflip::recover::flips::{Fate, FlipKind};
-use tetflip::recover::polygons::Times;
+use tetflip::recover::polygons::{FlipOrder, NumberType};
 use tetflip::report::Report;
 
 /// Where a scene comes from.
@@ -154,7 +154,7 @@ impl Plan {
             assert_eq!(insertions.len(), 1, "{name}: one missing region");
             insertions.pop().expect("one")
         };
-        let insertions = [Times::Exact, Times::F64].map(one);
+        let insertions = [FlipOrder::EXACT, FlipOrder::new(NumberType::F64)].map(one);
         let films = insertions.each_ref().map(|i| Film::of(&cdt.points, i));
         assert_eq!(films[0].before, films[1].before, "both begin alike");
         let polygon = &plc.facets[0].polygons[0];
@@ -165,8 +165,11 @@ impl Plan {
             polygon,
             &numbering.vertices,
         );
-        let reference = watched(cdt, Times::Exact).0.ok();
-        let orders = [("exact", Times::Exact), ("f64", Times::F64)];
+        let reference = watched(cdt, FlipOrder::EXACT).0.ok();
+        let orders = [
+            ("exact", FlipOrder::EXACT),
+            ("f64", FlipOrder::new(NumberType::F64)),
+        ];
         let runs = std::array::from_fn(|i| {
             let (word, times) = orders[i];
             let end = (word, run(cdt, times, reference.as_ref()));

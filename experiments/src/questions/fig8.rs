@@ -18,7 +18,7 @@ use tetflip::cdt::Cdt;
 use tetflip::error::Failure;
 use tetflip::exchange::Plc;
 use tetflip::mesh::VertexId;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 
 /// The figure.
@@ -56,9 +56,9 @@ impl Experiment for Fig8 {
         let described = |failure: Failure| failure.describe(&plc).to_string();
         let mut cdt = Cdt::with_segments(&plc, true, &mut report).map_err(described)?;
         let before = cdt.clone();
-        let insertion = Insertion::Flip(Times::Filtered);
+        let insertion = Insertion::Flip(FlipOrder::FILTERED);
         let counts = cdt
-            .insert_polygons_watched(insertion, &mut report, &mut |_| (), Some(&mut trace))
+            .insert_polygons_observed(insertion, &mut report, &mut |_| (), Some(&mut trace))
             .map_err(described)?;
         let region = trace.insertions.first().ok_or("the rectangle was there")?;
         let (_, after) = region.end.as_ref().ok_or("the insertion has not ended")?;

@@ -12,7 +12,7 @@ use tetflip::exchange::Plc;
 use tetflip::format::read_plc;
 use tetflip::mesh::VertexId;
 use tetflip::predicate::DoublePoints;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
@@ -31,7 +31,7 @@ pub fn take_part(word: &str, path: &Path) -> Result<(), Box<dyn Error>> {
         return points_only(plc);
     }
     let insertion = match what {
-        Ours::Flips => Insertion::Flip(Times::Filtered),
+        Ours::Flips => Insertion::Flip(FlipOrder::FILTERED),
         _ => Insertion::Cavity,
     };
     let (mesh, constructed, polygons, steiner) = cdt(&plc, insertion)?;

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use std::fmt;
 use std::str::FromStr;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 
 /// An algorithm; the same word names it on the command line and in messages.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -54,13 +54,13 @@ impl FromStr for Algorithm {
         Ok(match word.split_once(':') {
             Some(("flip", times)) => Algorithm::Ours(Insertion::Flip(
                 times
-                    .parse::<Times>()
+                    .parse::<FlipOrder>()
                     .map_err(|unknown| unknown.to_string())?,
             )),
             None if word == "check" => Algorithm::Check,
             None if word == "cavity" => Algorithm::Ours(Insertion::Cavity),
             None if word == "gift-wrap" => Algorithm::Ours(Insertion::GiftWrap),
-            None if word == "flip" => Algorithm::Ours(Insertion::Flip(Times::Filtered)),
+            None if word == "flip" => Algorithm::Ours(Insertion::Flip(FlipOrder::FILTERED)),
             None if word == "tetgen" => Algorithm::TetgenCavity,
             None if word == "tetgen-flip" => Algorithm::TetgenFlip,
             _ => {
@@ -133,7 +133,7 @@ mod tests {
         }
         assert_eq!(
             "flip".parse(),
-            Ok(Algorithm::Ours(Insertion::Flip(Times::Filtered)))
+            Ok(Algorithm::Ours(Insertion::Flip(FlipOrder::FILTERED)))
         );
         for word in ["", "flips", "flip:", "cavity:f64", "flip:f65"] {
             assert!(word.parse::<Algorithm>().is_err(), "{word}");

@@ -8,7 +8,7 @@
 //!
 //! Time linear in the size of R, there and back.
 
-use super::room::Room;
+use super::region_view::RegionView;
 use crate::machine::less;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
@@ -33,7 +33,7 @@ pub(super) struct Compact<P> {
     /// The frame of the polygon.
     pub(super) frame: [VertexId; 3],
     /// Which is which.
-    pub(super) room: Parts,
+    pub(super) view: Parts,
     /// The vertices as the mesh knows them.
     vertices: Vec<VertexId>,
     /// The corner of the mesh outside of R that each corner of the shell stands for.
@@ -59,7 +59,7 @@ impl Parts {
     }
 }
 
-impl Room for Parts {
+impl RegionView for Parts {
     #[inline(always)]
     fn left_and_right(&self, &[a, b, c, d]: &[VertexId; 4]) -> [u8; 2] {
         let ids = [a.0, b.0, c.0, d.0];
@@ -125,7 +125,7 @@ impl<P: PointStore> Compact<P> {
             points: sides.points().reordered(&vertices),
             mesh: copy,
             frame: sides.frame.map(number),
-            room: Parts {
+            view: Parts {
                 left: id(left),
                 right: id(right),
                 shell: id(shell),
@@ -137,13 +137,13 @@ impl<P: PointStore> Compact<P> {
 
     /// The ids of R's tetrahedra before any flip.
     pub(super) fn tets(&self) -> impl ExactSizeIterator<Item = TetId> + use<P> {
-        (self.room.shell as usize..self.mesh.capacity()).map(TetId::new)
+        (self.view.shell as usize..self.mesh.capacity()).map(TetId::new)
     }
 
     /// How many tetrahedra cross f.
     pub(super) fn crossing(&self) -> usize {
         let crosses = |&t: &TetId| {
-            let [left, right] = self.room.left_and_right(&self.mesh.vertices(t));
+            let [left, right] = self.view.left_and_right(&self.mesh.vertices(t));
             left != 0 && right != 0
         };
         self.inner().filter(crosses).count()
@@ -151,7 +151,7 @@ impl<P: PointStore> Compact<P> {
 
     /// The tetrahedra that fill R.
     fn inner(&self) -> impl Iterator<Item = TetId> + '_ {
-        self.mesh.all().skip_while(|&t| !self.room.contains(t))
+        self.mesh.all().skip_while(|&t| !self.view.contains(t))
     }
 
     /// Puts the tetrahedra that fill R now into the place of those that did, and returns their ids in the mesh, sorted.
@@ -175,7 +175,7 @@ impl<P: PointStore> Compact<P> {
             let id = ids[t.index()];
             let mut across = [Corner::NONE; 4];
             for (slot, &twin) in twins.iter().enumerate() {
-                across[slot] = if self.room.contains(twin.tet()) {
+                across[slot] = if self.view.contains(twin.tet()) {
                     ids[twin.tet().index()].corner(twin.slot())
                 } else {
                     let outside = self.outside[4 * twin.tet().index() + twin.slot()];
@@ -255,13 +255,13 @@ mod tests {
     use crate::cdt::{Cdt, Options};
     use crate::exchange::{Facet, Plc};
     use crate::mesh::{TetMesh, VertexId};
-    use crate::recover::flips::Watch;
-    use crate::recover::polygons::{Insertion, PolygonCounts, Times};
+    use crate::recover::flips::FlipObserver;
+    use crate::recover::polygons::{FlipOrder, Insertion, PolygonCounts};
     use crate::report::Report;
 
     struct Silent;
 
-    impl Watch for Silent {}
+    impl FlipObserver for Silent {}
 
     /// A rectangle through points of a flat box, which has a vertical one in its way.
     fn scene(seed: u32, grid: f64) -> Plc {
@@ -290,14 +290,14 @@ mod tests {
         }
     }
 
-    fn inserted(plc: &Plc, watched: bool) -> (TetMesh, PolygonCounts) {
+    fn inserted(plc: &Plc, observed: bool) -> (TetMesh, PolygonCounts) {
         let mut report = Report::default();
         let mut cdt = Cdt::begin(plc, &Options::default(), &mut report).expect("a PLC");
-        let insertion = Insertion::Flip(Times::Filtered);
+        let insertion = Insertion::Flip(FlipOrder::FILTERED);
         let mut silent = Silent;
-        let watch = watched.then_some(&mut silent as &mut dyn Watch);
+        let observer = observed.then_some(&mut silent as &mut dyn FlipObserver);
         let counts = cdt
-            .insert_polygons_watched(insertion, &mut report, &mut |_| (), watch)
+            .insert_polygons_observed(insertion, &mut report, &mut |_| (), observer)
             .expect("a valid PLC");
         (cdt.mesh, counts)
     }
@@ -313,7 +313,7 @@ mod tests {
         tets
     }
 
-    /// An insertion that is watched takes place in the mesh itself.
+    /// An insertion that is observed takes place in the mesh itself.
     #[test]
     fn flips_in_a_copy_are_those_in_the_mesh() {
         for (seed, grid) in [(1, 1e9), (2, 1e9), (3, 16.0), (4, 32.0)] {

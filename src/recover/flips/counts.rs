@@ -1,6 +1,7 @@
 //! What insertions by flips report: counts, and how they ended.
 
-use super::{FlipKind, FlipQueue, FlipTimes};
+use super::{FlipKind, FlipTimes};
+use crate::kinetic::EventQueue;
 use serde::Serialize;
 
 /// What the flips of one or several insertions were.
@@ -52,7 +53,7 @@ impl FlipCounts {
     }
 
     /// Notes what the queue and its order have counted.
-    pub(super) fn record<C: FlipTimes>(&mut self, queue: &FlipQueue<C>, times: &C) {
+    pub(super) fn record<C: FlipTimes>(&mut self, queue: &EventQueue<C::Order>, times: &C) {
         let undecided = times.undecided();
         self.queued = queue.arrived();
         self.comparisons = queue.comparisons();

@@ -19,9 +19,9 @@
 
 use super::event::{self, Event, Signs};
 use super::moves::{FlipKind, flip_of_triangle};
-use super::queue::FlipQueue;
-use super::time::{FlipTimes, Timing};
+use super::time::{FlipTime, FlipTimes};
 use super::{Created, FlipCounts};
+use crate::kinetic::{EventQueue, TimeOrder};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 use crate::recover::subpolygons::{Face, face};
@@ -63,7 +63,7 @@ pub struct Deleted {
 }
 
 /// An event that has been flipped, and when.
-type Performed<C> = (Event, Timing<<C as FlipTimes>::Key, <C as FlipTimes>::Time>);
+type Performed<C> = (Event, FlipTime<<C as FlipTimes>::Order>);
 
 /// The deletion of one polygon.
 pub struct FlipDeletion<'a, P, C: FlipTimes> {
@@ -71,7 +71,7 @@ pub struct FlipDeletion<'a, P, C: FlipTimes> {
     points: &'a P,
     kept: Kept<'a>,
     times: C,
-    queue: FlipQueue<C>,
+    queue: EventQueue<C::Order>,
     /// The last flip and its time.
     last: Option<Performed<C>>,
     /// Which tetrahedra were created by flips.
@@ -96,7 +96,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
             points,
             kept,
             times,
-            queue: FlipQueue::latest_first(),
+            queue: EventQueue::latest_first(),
             last: None,
             created: marks,
             before: Vec::new(),
@@ -127,7 +127,7 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
         for &s in faces {
             self.certify(s)?;
         }
-        while let Some(event) = self.queue.pop(&mut self.times) {
+        while let Some(event) = self.queue.pop(self.times.order()) {
             let Some(s) = event.corner_if_alive(self.mesh) else {
                 self.counts.stale += 1;
                 continue;
@@ -151,32 +151,35 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
             return Ok(());
         }
         let circuit = [v, y, x, z, w];
-        let timing = self.times.time(circuit);
-        let timing = timing.ok_or(Blocked::TooLate(triangle))?;
+        let due = self.times.time(circuit);
+        let due = due.ok_or(Blocked::TooLate(triangle))?;
         let event = Event {
             circuit,
             tet: s.tet(),
             signs: Signs::UNKNOWN,
         };
-        self.queue.push(&mut self.times, event, timing);
+        self.queue
+            .push(self.times.order(), event, due.key, due.time);
         Ok(())
     }
 
     /// Sets the clock to the time of `event`, unless that is already over. (The paper asks when the event is queued; if it
     /// is too late then, it comes off the queue before any other flip is done.)
     fn go_back_to(&mut self, event: Event) -> Result<(), Blocked> {
-        let timing = self.times.time(event.circuit);
-        let timing = timing.expect("only events with a time are queued");
+        let due = self.times.time(event.circuit);
+        let due = due.expect("only events with a time are queued");
         let is_earlier = self.last.as_ref().is_none_or(|(last, at)| {
-            let order = C::compare_keys(timing.key, at.key)
-                .unwrap_or_else(|| self.times.compare((&event, &timing.time), (last, &at.time)));
+            let order = C::Order::compare_keys(due.key, at.key).unwrap_or_else(|| {
+                let order = self.times.order();
+                order.compare((&event, &due.time), (last, &at.time))
+            });
             order == Ordering::Less
         });
         if !is_earlier {
             let [_, x, y, z, _] = event.circuit;
             return Err(Blocked::TooLate(face([x, y, z])));
         }
-        self.last = Some((event, timing));
+        self.last = Some((event, due));
         Ok(())
     }
 

@@ -56,6 +56,15 @@ pub fn circuit(mesh: &TetMesh, c: Corner) -> [VertexId; 5] {
 }
 
 impl Event {
+    /// An event of which nothing but the circuit is of interest: for evaluating and comparing times.
+    pub fn of_circuit(circuit: [VertexId; 5]) -> Event {
+        Event {
+            circuit,
+            tet: TetId(u32::MAX),
+            signs: Signs::UNKNOWN,
+        }
+    }
+
     /// The corner at v of the tetrahedron vxyz, if both tetrahedra still exist.
     #[inline]
     pub fn corner_if_alive(&self, mesh: &TetMesh) -> Option<Corner> {

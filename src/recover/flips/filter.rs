@@ -28,13 +28,12 @@
 //! (Otherwise the largest of NaN and numbers might be too small for what does not depend on the NaN.)
 //!
 //! # Integers
-//! If all coordinates are multiples of 2^g then the c_i, N and D are multiples of the quanta 2^(3g), 2^(5g) and 2^(6g). If
-//! the error of a value is less than half of its quantum, the number is the multiple nearest to the value. If also the
-//! value is less than 2^52 quanta, that multiple is found in floats: the division by a power of two is exact (or
-//! underflows towards 0, the nearest multiple then), and so is rounding to an integer.
+//! If all coordinates are multiples of 2^g then the c_i, N and D are multiples of the quanta 2^(3g), 2^(5g) and 2^(6g):
+//! [`Bounded`] tells when that makes integers of them.
 
 use super::event::Signs;
-use super::motion::Motion;
+use super::motion::PolygonMotion;
+use crate::kinetic::Bounded;
 use crate::machine::prefetch;
 use crate::mesh::VertexId;
 use crate::number::{Approx, Sign, Vec3};
@@ -60,7 +59,7 @@ impl Moving {
 
 /// Evaluates circuits in floats.
 pub(super) struct Filter<'a, P> {
-    motion: &'a Motion<'a, P>,
+    motion: &'a PolygonMotion<'a, P>,
     /// By the vertices' numbers.
     known: Vec<Moving>,
     /// Whether all vertices are known, and their ids are their numbers.
@@ -95,60 +94,6 @@ const RESTING_BOUND: f64 = 388.0 * f64::EPSILON;
 /// What underflow adds to all bounds at most: 2^−450.
 const FLOOR: f64 = f64::from_bits((1023 - 450) << 52);
 
-/// A value and a bound of its error.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bounded {
-    /// The value.
-    pub value: f64,
-    /// At least the distance to the number that it stands for; infinite or NaN where nothing is known.
-    pub error: f64,
-}
-
-impl From<Approx> for Bounded {
-    fn from(x: Approx) -> Bounded {
-        Bounded {
-            value: x.value(),
-            error: x.error(),
-        }
-    }
-}
-
-impl Bounded {
-    /// The sign of the number, if it is known to be an integer multiple of `quantum`.
-    #[inline(always)]
-    fn sign_on_grid(&self, quantum: f64) -> Option<Sign> {
-        if self.value > self.error {
-            Some(Sign::Positive)
-        } else if self.value < -self.error {
-            Some(Sign::Negative)
-        } else if self.value.abs() + self.error < quantum * (1.0 - f64::EPSILON) {
-            Some(Sign::Zero)
-        } else {
-            None
-        }
-    }
-
-    /// Whether the number is certainly positive.
-    #[inline(always)]
-    pub(super) fn is_positive(&self) -> bool {
-        self.value > self.error
-    }
-
-    /// The number as a multiple of `quantum`, which it is known to be, if the bound leaves only one possibility.
-    #[inline(always)]
-    fn in_quanta(&self, quantum: f64) -> Option<i64> {
-        // No quantum: 0 < 0 is false, as bounds are positive.
-        let certain = self.error < 0.5 * quantum && self.is_small(quantum);
-        certain.then(|| (self.value / quantum).round() as i64)
-    }
-
-    /// Whether a smaller error might make an integer of it.
-    #[inline(always)]
-    fn is_small(&self, quantum: f64) -> bool {
-        self.value.abs() < quantum * 2f64.powi(52)
-    }
-}
-
 /// A circuit in floats, whose D may be positive.
 pub(super) struct Rising {
     ids: [VertexId; 5],
@@ -162,7 +107,7 @@ pub(super) struct Rising {
 }
 
 impl<'a, P: PointStore> Filter<'a, P> {
-    pub(super) fn new(motion: &'a Motion<'a, P>) -> Self {
+    pub(super) fn new(motion: &'a PolygonMotion<'a, P>) -> Self {
         let quantum = |degree: i32| {
             let exponent = motion.points.grid().map(|g| g.saturating_mul(degree));
             let normal = exponent.filter(|e| (-1022..=1023).contains(e));

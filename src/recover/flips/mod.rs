@@ -2,25 +2,29 @@
 //!
 //! [`FlipInsertion::insert`] and `certify` are the figure's two procedures, line by line. The order of
 //! the queue is that of a [`FlipTimes`]: rounded quotients as in the paper, with the paper's three patches (§3.3), each
-//! counted; or exact quotients with the perturbation of the weights, which need no patch.
+//! counted; or exact quotients with the perturbation of the weights, which need no patch. The orders that there are stand in
+//! one table, `order.rs`; [`FlipNumbers`] is what one more of the caller's own must do.
 //!
-//! Large regions are flipped in a copy (`compact.rs`) if the times are filtered ones and nobody watches.
+//! Large regions are flipped in a copy (`compact.rs`) if the number type asks for it and nobody observes.
 
 mod compact;
 mod counts;
 mod deletion;
 mod event;
+mod exact;
 mod filter;
 mod filtered;
 mod motion;
 mod moves;
+mod numbers;
+mod observer;
+mod order;
 mod patches;
-mod queue;
-mod room;
+mod region_view;
 mod rounded;
 mod run;
+mod ties;
 mod time;
-mod watch;
 mod wide;
 
 use counts::most_flips;
@@ -28,19 +32,23 @@ pub use counts::{FlipCounts, FlipOutcome};
 pub use deletion::{Blocked, Deleted, FlipDeletion, Kept};
 use event::Facets;
 pub use event::{Event, Signs};
-pub use filtered::{Enclosure, FilteredTime, FilteredTimes};
-pub use motion::{LeftVertices, Motion, VertexNumbers};
+pub use exact::ExactTimes;
+pub use filtered::FilteredTimes;
+pub use motion::{LeftVertices, PolygonMotion, VertexNumbers};
 use moves::is_flippable;
 pub use moves::{Flip, FlipKind, flip_of_triangle};
-pub use queue::FlipQueue;
-pub use room::Room;
-pub use rounded::RoundedTimes;
-pub use run::{FlipScratch, Flipped, flip_delete, flip_insert};
-pub use time::{ExactTimes, FlipTimes, Float, Quotient, Timed, Timing, Undecided};
-pub use watch::{Fate, Watch};
+pub use numbers::{ExactNumbers, FilteredNumbers, FlipNumbers, RoundedNumbers, WideNumbers};
+pub use observer::{Fate, FlipObserver};
+pub use order::{Exactness, FlipOrder, NumberTask, NumberType, UnknownOrder};
+pub use region_view::RegionView;
+pub use rounded::{Evaluation, RoundedTimes};
+pub use run::{FlipRegion, FlipScratch, Flipped, flip_delete};
+pub use ties::{QueueRule, Rules, TieRule};
+pub use time::{FlipTime, FlipTimes, Undecided};
 pub use wide::WideTimes;
 
 use crate::clock::{Task, TaskClock};
+use crate::kinetic::EventQueue;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 use crate::recover::region::{Side, Sides, crossing_facets};
@@ -68,9 +76,9 @@ pub struct FlipInsertion<'a, P, C: FlipTimes, R> {
     mesh: &'a mut TetMesh,
     points: &'a P,
     /// R, and the sides of f.
-    room: &'a mut R,
+    region: &'a mut R,
     times: C,
-    queue: FlipQueue<C>,
+    queue: EventQueue<C::Order>,
     /// The list L of §3.3.
     postponed: Vec<Event>,
     counts: FlipCounts,
@@ -78,31 +86,31 @@ pub struct FlipInsertion<'a, P, C: FlipTimes, R> {
     is_large: bool,
     /// In an inexact order nothing proves that the flips come to an end: all are refused after this many.
     most_flips: u64,
-    watch: Option<&'a mut dyn Watch>,
+    observer: Option<&'a mut dyn FlipObserver>,
     clock: Option<&'a mut TaskClock>,
 }
 
-impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
+impl<'a, P: PointStore, C: FlipTimes, R: RegionView> FlipInsertion<'a, P, C, R> {
     /// Prepares the insertion into a region.
-    pub fn new(mesh: &'a mut TetMesh, points: &'a P, room: &'a mut R, times: C) -> Self {
+    pub fn new(mesh: &'a mut TetMesh, points: &'a P, region: &'a mut R, times: C) -> Self {
         FlipInsertion {
             mesh,
             points,
-            room,
+            region,
             times,
-            queue: FlipQueue::earliest_first(),
+            queue: EventQueue::earliest_first(),
             postponed: Vec::new(),
             counts: FlipCounts::default(),
             is_large: false,
             most_flips: u64::MAX,
-            watch: None,
+            observer: None,
             clock: None,
         }
     }
 
-    /// The same, watched.
-    pub fn watched_by(mut self, watch: Option<&'a mut dyn Watch>) -> Self {
-        self.watch = watch;
+    /// The same, observed.
+    pub fn observed_by(mut self, observer: Option<&'a mut dyn FlipObserver>) -> Self {
+        self.observer = observer;
         self
     }
 
@@ -122,13 +130,13 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
 
     #[inline]
     fn tell(&mut self, circuit: [VertexId; 5], fate: Fate) {
-        if let Some(watch) = &mut self.watch {
-            watch.event(circuit, fate);
+        if let Some(observer) = &mut self.observer {
+            observer.event(circuit, fate);
         }
     }
 
     /// FlipInsertPolygon of Fig. 7, for R as it is filled by the given tetrahedra. O(n log n) comparisons for n events.
-    /// Whatever the outcome, the tetrahedra of the room fill R afterwards; whether crossing ones are left is not looked at.
+    /// Whatever the outcome, the tetrahedra of the view fill R afterwards; whether crossing ones are left is not looked at.
     pub fn insert(
         mut self,
         tets: impl ExactSizeIterator<Item = TetId>,
@@ -211,7 +219,7 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
                 self.mesh.prefetch_neighbors(self.mesh.neighbor(s));
             }
         }
-        self.queue.pop(&mut self.times)
+        self.queue.pop(self.times.order())
     }
 
     /// Certify of Fig. 7: queues the crossing triangle opposite corner `s` if it must be flipped at some time.
@@ -241,19 +249,19 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
             edge.is_none_or(|edge| !done.iter().any(|&other| is_same(edge, other)))
         };
         let tet = *mesh.tet(s.tet()).0;
-        let Some(timing) = self.times.time_across(tet, circuit, is_wanted) else {
+        let Some(due) = self.times.time_across(tet, circuit, is_wanted) else {
             return;
         };
         if let Some(edge) = edge {
             done.push(edge);
         }
-        let signs = timing.signs;
         let event = Event {
             circuit,
             tet: s.tet(),
-            signs,
+            signs: due.signs,
         };
-        self.queue.push(&mut self.times, event, timing);
+        self.queue
+            .push(self.times.order(), event, due.key, due.time);
     }
 
     /// Certifies the crossing triangles on the boundary of the flipped volume, now filled by `created`.
@@ -294,10 +302,13 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
     #[inline(always)]
     fn list_facets(&self, t: TetId, facets: u8, list: &mut Facets) {
         let (vertices, twins) = self.mesh.tet(t);
-        let crossing = facets & crossing_facets(self.room.left_and_right(vertices));
+        let crossing = facets & crossing_facets(self.region.left_and_right(vertices));
         for (slot, twin) in twins.iter().enumerate() {
             let is_crossing = crossing >> slot & 1 == 1;
-            list.push_if(t.corner(slot), is_crossing & self.room.contains(twin.tet()));
+            list.push_if(
+                t.corner(slot),
+                is_crossing & self.region.contains(twin.tet()),
+            );
         }
     }
 
@@ -307,17 +318,17 @@ impl<'a, P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'a, P, C, R> {
             return Err(Refused::Endless);
         }
         let flip = flip_of_triangle(self.points, self.mesh, s, signs).ok_or(Refused::Impossible)?;
-        if !flip.old().iter().all(|&t| self.room.contains(t)) {
+        if !flip.old().iter().all(|&t| self.region.contains(t)) {
             return Err(Refused::OutsideRegion);
         }
         let created = flip.perform(self.mesh);
         match flip {
             Flip::TwoThree(..) => {
-                self.room.enter(created[2]);
+                self.region.enter(created[2]);
                 self.counts.two_three += 1;
             }
             Flip::ThreeTwo([_, _, gone], _) => {
-                self.room.leave(gone);
+                self.region.leave(gone);
                 self.counts.three_two += 1;
             }
             Flip::FourFour(..) => self.counts.four_four += 1,

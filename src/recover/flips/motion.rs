@@ -1,7 +1,9 @@
 //! The vertices of a region and how fast their heights grow while f is inserted.
 
+use super::event::Event;
+use crate::kinetic::{Motion, Quotient};
 use crate::mesh::VertexId;
-use crate::number::{Number, Vec3};
+use crate::number::{Exact, Number, Vec3};
 use crate::predicate::PointStore;
 use crate::predicate::formula::{self, Lifted};
 use crate::recover::tables::Table;
@@ -11,7 +13,7 @@ use std::cell::RefCell;
 pub type LeftVertices<'a> = &'a dyn Fn(VertexId) -> bool;
 
 /// What moves while f is inserted: the heights of its left vertices v, with rates orient3d(frame, v).
-pub struct Motion<'a, P> {
+pub struct PolygonMotion<'a, P> {
     pub(super) points: &'a P,
     frame: [VertexId; 3],
     is_left: LeftVertices<'a>,
@@ -26,10 +28,10 @@ pub struct VertexNumbers {
     used: u32,
 }
 
-impl<'a, P: PointStore> Motion<'a, P> {
+impl<'a, P: PointStore> PolygonMotion<'a, P> {
     /// For the polygon with the given frame; `is_left` tells the left vertices.
     pub fn new(points: &'a P, frame: [VertexId; 3], is_left: LeftVertices<'a>) -> Self {
-        Motion::with_numbers(points, frame, is_left, VertexNumbers::default())
+        PolygonMotion::with_numbers(points, frame, is_left, VertexNumbers::default())
     }
 
     /// The same, using the memory of `numbers`.
@@ -41,7 +43,7 @@ impl<'a, P: PointStore> Motion<'a, P> {
     ) -> Self {
         numbers.table.clear();
         numbers.used = 0;
-        Motion {
+        PolygonMotion {
             points,
             frame,
             is_left,
@@ -54,8 +56,8 @@ impl<'a, P: PointStore> Motion<'a, P> {
         points: &'a P,
         frame: [VertexId; 3],
         is_left: LeftVertices<'a>,
-    ) -> Motion<'a, P> {
-        Motion {
+    ) -> PolygonMotion<'a, P> {
+        PolygonMotion {
             points,
             frame,
             is_left,
@@ -63,7 +65,7 @@ impl<'a, P: PointStore> Motion<'a, P> {
         }
     }
 
-    /// The memory given to [`Motion::with_numbers`].
+    /// The memory given to [`PolygonMotion::with_numbers`].
     pub fn into_numbers(self) -> VertexNumbers {
         self.numbers.map(RefCell::into_inner).unwrap_or_default()
     }
@@ -101,17 +103,18 @@ impl<'a, P: PointStore> Motion<'a, P> {
     }
 }
 
-/// The positions and rates of a region's vertices in one number type, each computed once.
-pub(super) struct Rates<'a, P, N> {
-    pub(super) motion: &'a Motion<'a, P>,
+/// Evaluates circuits in one number type. The positions and rates of a region's vertices are computed once each.
+pub struct Circuits<'a, P, N> {
+    pub(super) motion: &'a PolygonMotion<'a, P>,
     known: Vec<(Vec3<N>, N)>,
     /// 1 + the place of each vertex there, by its number; 0 if it is not known. (Mostly few are asked for.)
     places: Vec<u32>,
 }
 
-impl<'a, P: PointStore, N: Number> Rates<'a, P, N> {
-    pub(super) fn new(motion: &'a Motion<'a, P>) -> Self {
-        Rates {
+impl<'a, P: PointStore, N: Number> Circuits<'a, P, N> {
+    /// For the given motion.
+    pub fn new(motion: &'a PolygonMotion<'a, P>) -> Self {
+        Circuits {
             motion,
             known: Vec::new(),
             places: Vec::new(),
@@ -151,5 +154,28 @@ impl<'a, P: PointStore, N: Number> Rates<'a, P, N> {
     pub(super) fn coefficients(&mut self, circuit: [VertexId; 5]) -> [N; 5] {
         let p = circuit.map(|v| self.motion.points.coordinates::<N>(v));
         formula::circuit(p.each_ref()).0
+    }
+}
+
+impl<P: PointStore, N: Exact> Motion<N, 5> for Circuits<'_, P, N> {
+    type Event = Event;
+
+    fn quotient(&mut self, event: &Event) -> Option<Quotient<N>> {
+        let (n, d) = self.evaluate(event.circuit);
+        Quotient::of_rising(n, d)
+    }
+
+    fn perturbation(&mut self, event: &Event) -> [(u32, N); 5] {
+        let [v, x, y, z, w] = event.circuit.map(|v| self.motion.points.identity(v));
+        let [cv, cx, cy, cz, cw] = self.coefficients(event.circuit);
+        [(v, cv), (x, cx), (y, cy), (z, cz), (w, cw)]
+    }
+
+    /// Two triangles of one circuit, or one triangle queued again.
+    fn is_one_circuit(a: &Event, b: &Event) -> bool {
+        let (mut a, mut b) = (a.circuit, b.circuit);
+        a.sort_unstable();
+        b.sort_unstable();
+        a == b
     }
 }

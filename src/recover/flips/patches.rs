@@ -2,11 +2,11 @@
 //! Delaunay between non-crossing tetrahedra, and flips that were impossible when their time came. (The first one, flips that
 //! would remove a tetrahedron outside of R, is discarding the event.)
 
-use super::{Fate, FlipInsertion, FlipTimes, Refused, Room, Signs, event};
+use super::{Fate, FlipInsertion, FlipTimes, Refused, RegionView, Signs, event};
 use crate::mesh::{Corner, TetId};
 use crate::predicate::PointStore;
 
-impl<P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'_, P, C, R> {
+impl<P: PointStore, C: FlipTimes, R: RegionView> FlipInsertion<'_, P, C, R> {
     /// The second and third patch of §3.3, for rounded times, after a flip that created `created`.
     pub(super) fn patch_after_flip(&mut self, created: &[TetId]) {
         self.restore_non_crossing(created);
@@ -45,7 +45,7 @@ impl<P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'_, P, C, R> {
         }
         let mut pending: Vec<TetId> = created.to_vec();
         while let Some(t) = pending.pop() {
-            if !self.room.contains(t) || self.crosses(t) {
+            if !self.region.contains(t) || self.crosses(t) {
                 continue;
             }
             let bad = (0..4)
@@ -66,7 +66,10 @@ impl<P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'_, P, C, R> {
     fn is_bad_non_crossing(&self, s: Corner) -> bool {
         let n = self.mesh.neighbor(s);
         let facet = self.mesh.facet(s);
-        if !self.room.contains(n) || self.crosses(n) || facet.iter().all(|&v| self.room.is_on(v)) {
+        if !self.region.contains(n)
+            || self.crosses(n)
+            || facet.iter().all(|&v| self.region.is_on(v))
+        {
             return false;
         }
         let circuit = event::circuit(self.mesh, s);
@@ -75,7 +78,7 @@ impl<P: PointStore, C: FlipTimes, R: Room> FlipInsertion<'_, P, C, R> {
 
     /// Whether a tetrahedron of R has vertices on both sides of f.
     fn crosses(&self, t: TetId) -> bool {
-        let [left, right] = self.room.left_and_right(&self.mesh.vertices(t));
+        let [left, right] = self.region.left_and_right(&self.mesh.vertices(t));
         left != 0 && right != 0
     }
 }

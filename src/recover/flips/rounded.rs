@@ -2,51 +2,59 @@
 
 use super::event::Signs;
 use super::filter::{Filter, Moving};
-use super::motion::{Motion, Rates};
-use super::time::{FlipTimes, Timed, Timing, Undecided};
+use super::motion::{Circuits, PolygonMotion};
+use super::ties::{FlipTies, QueueRule, Rules};
+use super::time::{FlipTime, FlipTimes, Undecided};
+use crate::kinetic::RoundedOrder;
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Float, Sign, Vec3};
 use crate::predicate::PointStore;
 use crate::predicate::formula::Lifted;
-use std::cmp::Ordering;
 
-/// Times as rounded quotients, ties in order of arrival.
+/// How N and D are evaluated.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Evaluation {
+    /// Every operation rounded, but the sign of D is exact, as in the paper, whose Orient4D is exact in every mode.
+    Plain,
+    /// Every operation rounded, and the sign of D is that of the rounded D, right or wrong. The paper does not go as far.
+    Naive,
+}
+
+/// Times as rounded quotients.
 pub struct RoundedTimes<'a, P, N> {
     filter: Filter<'a, P>,
-    exact: Rates<'a, P, Dyadic>,
-    rates: Rates<'a, P, N>,
-    /// Whether the sign of D is that of the rounded D, right or wrong. Otherwise it is exact, as in the paper, whose
-    /// Orient4D is exact in every mode.
-    naive: bool,
+    exact: Circuits<'a, P, Dyadic>,
+    rounded: Circuits<'a, P, N>,
+    evaluation: Evaluation,
+    queue: QueueRule,
+    order: RoundedOrder<N, FlipTies<'a, P, N>>,
     /// Times discarded because the quotient was not finite.
     overflows: u64,
 }
 
 impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
     /// For the given motion.
-    pub fn new(motion: &'a Motion<'a, P>) -> Self {
+    pub fn new(
+        motion: &'a PolygonMotion<'a, P>,
+        evaluation: Evaluation,
+        Rules { ties, queue }: Rules,
+    ) -> Self {
         RoundedTimes {
             filter: Filter::new(motion),
-            exact: Rates::new(motion),
-            rates: Rates::new(motion),
-            naive: false,
+            exact: Circuits::new(motion),
+            rounded: Circuits::new(motion),
+            evaluation,
+            queue,
+            order: RoundedOrder::new(FlipTies::new(ties, motion)),
             overflows: 0,
-        }
-    }
-
-    /// The same with a rounded sign of D, which the paper does not go as far as.
-    pub fn naive(motion: &'a Motion<'a, P>) -> Self {
-        RoundedTimes {
-            naive: true,
-            ..RoundedTimes::new(motion)
         }
     }
 
     /// N and D, if D > 0.
     #[inline]
     fn positive(&mut self, tet: [VertexId; 4], circuit: [VertexId; 5]) -> Option<(N, N)> {
-        if self.naive {
-            let (n, d) = self.rates.evaluate(circuit);
+        if self.evaluation == Evaluation::Naive {
+            let (n, d) = self.rounded.evaluate(circuit);
             return (d.sign() == Some(Sign::Positive)).then_some((n, d));
         }
         let rising = self.filter.rising(circuit)?;
@@ -55,10 +63,10 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
         }
         let [n, d] = self.plain(tet, circuit[4]);
         let computed = N::computed(n).zip(N::computed(d));
-        Some(computed.unwrap_or_else(|| self.rates.evaluate(circuit)))
+        Some(computed.unwrap_or_else(|| self.rounded.evaluate(circuit)))
     }
 
-    /// N and D in plain doubles: the operations of [`Rates::evaluate`] in the same order, the origin apart.
+    /// N and D in plain doubles: the operations of [`Circuits::evaluate`] in the same order, the origin apart.
     #[inline]
     fn plain(&mut self, tet: [VertexId; 4], apex: VertexId) -> [f64; 2] {
         let [a, b, c, d] = tet;
@@ -84,43 +92,37 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
     }
 }
 
-impl<P: PointStore, N: Float> FlipTimes for RoundedTimes<'_, P, N> {
-    type Key = f64;
-    type Time = N;
+impl<'a, P: PointStore, N: Float> FlipTimes for RoundedTimes<'a, P, N> {
+    type Order = RoundedOrder<N, FlipTies<'a, P, N>>;
     const EXACT: bool = false;
+
+    #[inline]
+    fn order(&mut self) -> &mut Self::Order {
+        &mut self.order
+    }
 
     #[inline]
     fn time_across(
         &mut self,
         tet: [VertexId; 4],
         circuit: [VertexId; 5],
-        _: impl FnOnce(Signs, bool) -> bool,
-    ) -> Option<Timing<f64, N>> {
+        is_wanted: impl FnOnce(Signs, bool) -> bool,
+    ) -> Option<FlipTime<Self::Order>> {
         let (n, d) = self.positive(tet, circuit)?;
+        // By default, what is possible is asked when the time has come.
+        if !self.queue.admits(is_wanted) {
+            return None;
+        }
         let Some(time) = N::negated_quotient(&n, &d) else {
             self.overflows += 1;
             return None;
         };
-        Some(Timing {
+        let time = self.order.ties.settled(circuit, time);
+        Some(FlipTime {
             key: time.to_f64(),
             time,
-            // What is possible is asked when the time has come.
             signs: Signs::UNKNOWN,
         })
-    }
-
-    #[inline]
-    fn about(key: f64) -> Option<f64> {
-        Some(key)
-    }
-
-    #[inline]
-    fn compare_keys(a: f64, b: f64) -> Option<Ordering> {
-        a.partial_cmp(&b).filter(|o| o.is_ne())
-    }
-
-    fn compare(&mut self, a: Timed<N>, b: Timed<N>) -> Ordering {
-        N::compare(a.1, b.1)
     }
 
     fn undecided(&self) -> Undecided {

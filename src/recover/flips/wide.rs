@@ -2,16 +2,21 @@
 //! so that the insertion is compiled once, and only the polynomials for every width.
 
 use super::event::Signs;
-use super::motion::Motion;
-use super::rounded::RoundedTimes;
-use super::time::{FlipTimes, Timed, Timing, Undecided};
+use super::motion::PolygonMotion;
+use super::rounded::{Evaluation, RoundedTimes};
+use super::ties::{FlipTies, QueueRule, Rules};
+use super::time::{FlipTime, FlipTimes, Undecided};
+use crate::kinetic::WideOrder;
 use crate::mesh::VertexId;
 use crate::number::{Bits, Dyadic, Wide, WidthTask};
 use crate::predicate::PointStore;
-use std::cmp::Ordering;
 
 /// [`RoundedTimes`] in a [`Wide`] of some number of bits.
-pub struct WideTimes<'a>(Box<dyn AnyWidth + 'a>);
+pub struct WideTimes<'a, P> {
+    times: Box<dyn AnyWidth + 'a>,
+    queue: QueueRule,
+    order: WideOrder<FlipTies<'a, P, Dyadic>>,
+}
 
 /// [`FlipTimes`] without the type of its times.
 trait AnyWidth {
@@ -29,69 +34,66 @@ impl<P: PointStore, const BITS: u32> AnyWidth for RoundedTimes<'_, P, Wide<BITS>
     }
 }
 
-impl<'a> WideTimes<'a> {
+impl<'a, P: PointStore> WideTimes<'a, P> {
     /// [`RoundedTimes::new`].
-    pub fn new<P: PointStore>(bits: Bits, motion: &'a Motion<'a, P>) -> Self {
-        let naive = false;
-        WideTimes(bits.run(Make { motion, naive }))
-    }
-
-    /// [`RoundedTimes::naive`].
-    pub fn naive<P: PointStore>(bits: Bits, motion: &'a Motion<'a, P>) -> Self {
-        let naive = true;
-        WideTimes(bits.run(Make { motion, naive }))
+    pub fn new(
+        bits: Bits,
+        motion: &'a PolygonMotion<'a, P>,
+        evaluation: Evaluation,
+        Rules { ties, queue }: Rules,
+    ) -> Self {
+        WideTimes {
+            times: bits.run(Make { motion, evaluation }),
+            queue,
+            order: WideOrder {
+                ties: FlipTies::new(ties, motion),
+            },
+        }
     }
 }
 
 struct Make<'a, P> {
-    motion: &'a Motion<'a, P>,
-    naive: bool,
+    motion: &'a PolygonMotion<'a, P>,
+    evaluation: Evaluation,
 }
 
 impl<'a, P: PointStore> WidthTask for Make<'a, P> {
     type Output = Box<dyn AnyWidth + 'a>;
 
     fn with<const BITS: u32>(self) -> Self::Output {
-        Box::new(if self.naive {
-            RoundedTimes::<P, Wide<BITS>>::naive(self.motion)
-        } else {
-            RoundedTimes::<P, Wide<BITS>>::new(self.motion)
-        })
+        // The rules are kept outside.
+        let times =
+            RoundedTimes::<P, Wide<BITS>>::new(self.motion, self.evaluation, Rules::default());
+        Box::new(times)
     }
 }
 
-impl FlipTimes for WideTimes<'_> {
-    /// Doubles would not tell times of more bits, or with larger exponents, apart.
-    type Key = ();
-    type Time = Dyadic;
+impl<'a, P: PointStore> FlipTimes for WideTimes<'a, P> {
+    type Order = WideOrder<FlipTies<'a, P, Dyadic>>;
     const EXACT: bool = false;
+
+    fn order(&mut self) -> &mut Self::Order {
+        &mut self.order
+    }
 
     fn time_across(
         &mut self,
         _: [VertexId; 4],
         circuit: [VertexId; 5],
-        _: impl FnOnce(Signs, bool) -> bool,
-    ) -> Option<Timing<(), Dyadic>> {
-        self.0.time(circuit).map(|time| Timing {
+        is_wanted: impl FnOnce(Signs, bool) -> bool,
+    ) -> Option<FlipTime<Self::Order>> {
+        let time = self.times.time(circuit)?;
+        if !self.queue.admits(is_wanted) {
+            return None;
+        }
+        Some(FlipTime {
             key: (),
-            time,
+            time: self.order.ties.settled(circuit, time),
             signs: Signs::UNKNOWN,
         })
     }
 
-    fn about((): ()) -> Option<f64> {
-        None
-    }
-
-    fn compare_keys((): (), (): ()) -> Option<Ordering> {
-        None
-    }
-
-    fn compare(&mut self, a: Timed<Dyadic>, b: Timed<Dyadic>) -> Ordering {
-        a.1.cmp(b.1)
-    }
-
     fn undecided(&self) -> Undecided {
-        self.0.undecided()
+        self.times.undecided()
     }
 }

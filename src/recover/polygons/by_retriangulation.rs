@@ -100,7 +100,7 @@ mod tests {
     use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
     use crate::plc::Complex;
     use crate::predicate::DoublePoints;
-    use crate::recover::polygons::{PolygonCounts, Scratch, Subpolygons, Times};
+    use crate::recover::polygons::{FlipOrder, PolygonCounts, Scratch, Subpolygons};
     use crate::recover::retriangulate::gift_wrap;
     use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
 
@@ -166,7 +166,8 @@ mod tests {
                 counts: PolygonCounts::default(),
                 candidates: Vec::new(),
                 scratch: &mut self.scratch,
-                watch: None,
+                own_flips: None,
+                observer: None,
             }
         }
     }
@@ -254,7 +255,7 @@ mod tests {
         assert_eq!(cavity, wrapped);
         let mut scene = fins();
         let complex = scene.complex.clone();
-        let mut all = scene.insertion(&complex, Insertion::Flip(Times::Exact));
+        let mut all = scene.insertion(&complex, Insertion::Flip(FlipOrder::EXACT));
         all.insert_all(&mut |_| {}).expect("a valid PLC");
         assert_eq!(wrapped, sorted_tets(&scene.mesh));
     }

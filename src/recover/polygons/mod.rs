@@ -5,11 +5,11 @@ mod counts;
 mod flip_result;
 mod intersections;
 
-pub use super::method::{Insertion, Times};
+pub use super::method::{FlipOrder, Insertion, NumberType};
 pub use super::subpolygons::Subpolygons;
 pub use counts::PolygonCounts;
 
-use super::flips::{FlipOutcome, FlipScratch, Flipped, Watch, flip_insert, polygon_faces};
+use super::flips::{FlipObserver, FlipOutcome, FlipRegion, FlipScratch, Flipped, polygon_faces};
 use super::region::missing::{self, Obstacle};
 use super::region::{Region, Side, SideTable, Sides, region_as_plc};
 use super::retriangulate::cavity::CavityScratch;
@@ -51,8 +51,10 @@ pub struct PolygonInsertion<'a, P> {
     pub candidates: Vec<Face>,
     /// Memory used again for every polygon.
     pub scratch: &'a mut Scratch,
-    /// Who watches the flips.
-    pub watch: Option<&'a mut dyn Watch>,
+    /// Flips in numbers of the caller's own, in the place of `insertion`.
+    pub own_flips: Option<&'a dyn FlipRegion<P>>,
+    /// Who observes the flips.
+    pub observer: Option<&'a mut dyn FlipObserver>,
 }
 
 /// Tables that are kept from polygon to polygon.
@@ -242,18 +244,19 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         self.counts.regions += 1;
         self.counts.crossing_tets += region.tets.len() as u64;
         self.counts.largest_region = self.counts.largest_region.max(region.tets.len() as u64);
-        let times = match self.insertion {
-            Insertion::Flip(times) => times,
+        let order = match self.insertion {
+            Insertion::Flip(order) => order,
             Insertion::Cavity | Insertion::GiftWrap => {
                 if let Some(displaced) = self.by_retriangulation(f, sides, region, may_displace) {
                     return Ok(displaced);
                 }
-                Times::Filtered
+                FlipOrder::FILTERED
             }
         };
-        let mut result = self.by_flips(f, sides, flat, region, times);
+        let flips = self.own_flips.unwrap_or(&order);
+        let mut result = self.by_flips(f, sides, flat, region, flips);
         if !flat && let Err((_, region)) = &result {
-            result = self.by_flips(f, &sides.reversed(), flat, region, times);
+            result = self.by_flips(f, &sides.reversed(), flat, region, flips);
         }
         result
             .map(|()| Vec::new())
@@ -307,30 +310,25 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         sides: &Sides<P>,
         flat: bool,
         region: &Region,
-        times: Times,
+        flips: &dyn FlipRegion<P>,
     ) -> Result<(), (RegionFailure, Region)> {
         let before: Vec<[VertexId; 4]> =
             region.tets.iter().map(|&t| self.mesh.vertices(t)).collect();
-        if let Some(watch) = &mut self.watch {
-            watch.begin(f, sides.frame, &before);
+        if let Some(observer) = &mut self.observer {
+            observer.begin(f, sides.frame, &before);
         }
-        let inner = match times.is_exact() {
+        let inner = match flips.is_exact() {
             true => Vec::new(),
             false => region.inner_subpolygons(self.mesh, self.subpolygons),
         };
-        let watch = self.watch.as_deref_mut().map(|w| w as &mut dyn Watch);
+        let scratch = &mut self.scratch.flips;
+        let observer = self.observer.as_deref_mut();
+        let observer = observer.map(|o| o as &mut dyn FlipObserver);
         let Flipped {
             outcome,
             tets,
             counts,
-        } = flip_insert(
-            self.mesh,
-            sides,
-            region,
-            times,
-            &mut self.scratch.flips,
-            watch,
-        );
+        } = flips.insert(self.mesh, sides, region, scratch, observer);
         self.counts.flips.add(&counts);
         self.incidence.update(self.mesh, &tets);
         let faces = polygon_faces(self.mesh, sides, &tets);
@@ -344,14 +342,14 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             FlipOutcome::Impossible => Err(RegionFailure::Impossible),
             FlipOutcome::Endless => Err(RegionFailure::Endless),
             // The sides were rounded, so that the outcome may be wrong.
-            _ if times.is_naive() => judge.check_orientation().and(judge.check_crossings()),
+            _ if flips.is_naive() => judge.check_orientation().and(judge.check_crossings()),
             FlipOutcome::Stuck { crossing } => Err(RegionFailure::Stuck(crossing)),
             FlipOutcome::Done => Ok(()),
         };
         // Exact times on a flat polygon of a valid PLC make the CDT, by proof; what is wrong with an invalid one is found
         // and named by the next search. Rounded times can leave triangles that are not locally Delaunay, and so can a
         // polygon that is not flat (paper, end of §3.2).
-        let verdict = if flat && times.is_exact() {
+        let verdict = if flat && flips.is_exact() {
             verdict
         } else {
             let on_f: Vec<Face> = faces.iter().map(|&t| face(t)).collect();

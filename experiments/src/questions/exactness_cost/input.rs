@@ -201,7 +201,7 @@ fn rectangle_and(corners: [[f64; 3]; 4], points: impl Iterator<Item = [f64; 3]>)
 mod tests {
     use super::*;
     use tetflip::cdt::Cdt;
-    use tetflip::recover::polygons::{Insertion, Times};
+    use tetflip::recover::polygons::{FlipOrder, Insertion};
     use tetflip::report::Report;
 
     /// A rectangle cuts about as many tetrahedra as it should, without Steiner points, and is flat.
@@ -216,7 +216,7 @@ mod tests {
                 };
                 let mut report = Report::default();
                 let mut cdt = Cdt::with_segments(&input.plc(), true, &mut report).unwrap();
-                let filtered = Insertion::Flip(Times::Filtered);
+                let filtered = Insertion::Flip(FlipOrder::FILTERED);
                 let counts = cdt.insert_polygons(filtered, &mut report, &mut |_| ());
                 let counts = counts.unwrap_or_else(|e| panic!("{}: {e}", input.name()));
                 assert_eq!(

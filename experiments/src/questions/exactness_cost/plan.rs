@@ -4,7 +4,7 @@ use super::input::{Input, KINDS, Kind};
 use crate::measure::method::Method;
 use crate::measure::rounds::Effort;
 use tetflip::number::Bits;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion, NumberType};
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -80,16 +80,18 @@ fn inputs(slab: &[(u64, u64)], lattice: &[(u64, u64)], sphere: &[(u64, u64)]) ->
 
 /// All methods, in the order of tables.
 pub fn methods() -> Vec<Method> {
-    let wide = Times::Wide("106".parse::<Bits>().expect("there are 106 bits"));
+    let wide = FlipOrder::new(NumberType::Wide(
+        "106".parse::<Bits>().expect("there are 106 bits"),
+    ));
     let times = [
-        Times::F64,
-        Times::F32,
-        Times::Filtered,
-        Times::Exact,
+        FlipOrder::new(NumberType::F64),
+        FlipOrder::new(NumberType::F32),
+        FlipOrder::FILTERED,
+        FlipOrder::EXACT,
         wide,
-        Times::Rational,
+        FlipOrder::new(NumberType::Rational),
         #[cfg(feature = "rug")]
-        Times::Rug,
+        FlipOrder::new(NumberType::Rug),
     ];
     let baselines = [Insertion::Cavity, Insertion::GiftWrap];
     let all = times.into_iter().map(Insertion::Flip).chain(baselines);
@@ -99,9 +101,9 @@ pub fn methods() -> Vec<Method> {
 /// The methods that are compared at a size.
 pub fn methods_for(about: u64) -> Vec<Method> {
     let most = |m: &Method| match m.0 {
-        Insertion::Flip(Times::F32 | Times::F64 | Times::Filtered) | Insertion::Cavity => u64::MAX,
-        Insertion::Flip(Times::Exact) => MOST_FOR_EXACT,
-        Insertion::Flip(Times::Rational) => MOST_FOR_RATIONAL,
+        _ if !is_slow(*m) => u64::MAX,
+        Insertion::Flip(FlipOrder::EXACT) => MOST_FOR_EXACT,
+        Insertion::Flip(order) if order.numbers == NumberType::Rational => MOST_FOR_RATIONAL,
         _ => MOST_FOR_SLOW,
     };
     let mut methods = methods();
@@ -111,10 +113,14 @@ pub fn methods_for(about: u64) -> Vec<Method> {
 
 /// Whether a method takes many times as long as the others, so that it is timed less often.
 pub fn is_slow(method: Method) -> bool {
-    !matches!(
-        method.0,
-        Insertion::Flip(Times::F32 | Times::F64 | Times::Filtered) | Insertion::Cavity
-    )
+    match method.0 {
+        Insertion::Flip(order) => !matches!(
+            order.numbers,
+            NumberType::F32 | NumberType::F64 | NumberType::Filtered
+        ),
+        Insertion::Cavity => false,
+        Insertion::GiftWrap => true,
+    }
 }
 
 /// A part of the progress bar.

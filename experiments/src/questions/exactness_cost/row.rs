@@ -8,7 +8,7 @@ use crate::measure::outcome;
 use crate::measure::sample::rounded;
 use serde::Serialize;
 use tetflip::recover::flips::FlipCounts;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 
 /// The columns; the README of the package has their meaning.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -58,7 +58,7 @@ pub fn decided(method: Method, counts: &FlipCounts) -> Option<Decided> {
     }
     // Only filtered times have enclosures; the others are exact from the start.
     let exactly = match times {
-        Times::Filtered => counts.compared_exactly,
+        FlipOrder::FILTERED => counts.compared_exactly,
         _ => counts.comparisons,
     };
     let part = |n: u64| rounded(n as f64 / counts.comparisons as f64);
@@ -134,6 +134,7 @@ pub fn expectations(rows: &[Row]) -> Vec<Expectation> {
 mod tests {
     use super::*;
     use crate::frame::expectation::assert_each_can_fail;
+    use tetflip::recover::polygons::NumberType;
 
     #[test]
     fn parts_of_comparisons() {
@@ -146,15 +147,15 @@ mod tests {
         let of = |times, counts| decided(Method(Insertion::Flip(times)), counts);
         let parts = |d: Decided| [d.by_floats, d.by_exact_quotients, d.by_perturbation];
         assert_eq!(
-            of(Times::Filtered, &counts).map(parts),
+            of(FlipOrder::FILTERED, &counts).map(parts),
             Some([0.9, 0.07, 0.03])
         );
         assert_eq!(
-            of(Times::Exact, &counts).map(parts),
+            of(FlipOrder::EXACT, &counts).map(parts),
             Some([0.0, 0.97, 0.03])
         );
-        assert_eq!(of(Times::F64, &counts), None);
-        assert_eq!(of(Times::Exact, &FlipCounts::default()), None);
+        assert_eq!(of(FlipOrder::new(NumberType::F64), &counts), None);
+        assert_eq!(of(FlipOrder::EXACT, &FlipCounts::default()), None);
         assert_eq!(decided(Method(Insertion::Cavity), &counts), None);
     }
 

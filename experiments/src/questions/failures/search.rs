@@ -8,14 +8,14 @@ use crate::questions::flip_order::measure::{run, watched};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use tetflip::cdt::Cdt;
-use tetflip::recover::polygons::Times;
+use tetflip::recover::polygons::{FlipOrder, NumberType};
 
 /// A run that has failed.
 pub struct Case {
     /// The input.
     pub member: Member,
     /// The number type.
-    pub times: Times,
+    pub times: FlipOrder,
     /// How it ended.
     pub outcome: &'static str,
     /// How much is wrong then.
@@ -31,7 +31,10 @@ pub struct Case {
 }
 
 /// The number types of the gallery.
-const TIMES: [Times; 2] = [Times::F64, Times::F32];
+const TIMES: [FlipOrder; 2] = [
+    FlipOrder::new(NumberType::F64),
+    FlipOrder::new(NumberType::F32),
+];
 
 /// The paper's failure case, rebuilt.
 pub const PAPERS: &str = "prism/end:78";
@@ -65,15 +68,18 @@ pub fn gallery(seeds: u64, context: &Context) -> Vec<Case> {
             }
         }
     });
-    let first = failure(PAPERS.parse().expect("a name"), Times::F64);
+    let first = failure(
+        PAPERS.parse().expect("a name"),
+        FlipOrder::new(NumberType::F64),
+    );
     let found = smallest.into_inner().expect("no worker panics");
     first.into_iter().chain(found.into_values()).collect()
 }
 
 /// The run, if it gets stuck.
-fn failure(member: Member, times: Times) -> Option<Case> {
+fn failure(member: Member, times: FlipOrder) -> Option<Case> {
     let cdt = member.prepare().cdt;
-    let (reference, _, _) = watched(&cdt, Times::Exact);
+    let (reference, _, _) = watched(&cdt, FlipOrder::EXACT);
     let of_run = run(&cdt, times, reference.as_ref().ok());
     if of_run.outcome != "stuck" {
         return None;

@@ -9,7 +9,7 @@ use tetflip::cdt::Cdt;
 use tetflip::error::Failure;
 use tetflip::mesh::VertexId;
 use tetflip::recover::flips::FlipCounts;
-use tetflip::recover::polygons::{Insertion, PolygonCounts, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion, PolygonCounts};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
@@ -23,7 +23,7 @@ pub const DIFFERENT: &str = "different";
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The number type.
-    pub times: Times,
+    pub times: FlipOrder,
     /// `ok`: the tetrahedra of the CDT. Otherwise [`DIFFERENT`], or the kind of failure.
     pub outcome: &'static str,
     /// How much is wrong then: see [`outcome::left`].
@@ -74,7 +74,7 @@ pub struct Measured {
 /// Runs one input.
 pub fn measure(member: Member, plan: &Plan) -> Measured {
     let prepared = member.prepare();
-    let reference = tets_by(&prepared.cdt, Insertion::Flip(Times::Exact));
+    let reference = tets_by(&prepared.cdt, Insertion::Flip(FlipOrder::EXACT));
     let expected = reference.as_ref().ok().map(|(tets, _)| tets);
     let of_seed = plan
         .numbers
@@ -118,16 +118,17 @@ fn sorted_tets(cdt: &Cdt) -> Tets {
 }
 
 /// A watched run: its outcome and what happened.
-pub fn watched(cdt: &Cdt, times: Times) -> (Result<Tets, Failure>, FlipCounts, Trace) {
+pub fn watched(cdt: &Cdt, times: FlipOrder) -> (Result<Tets, Failure>, FlipCounts, Trace) {
     let (mut cdt, mut report, mut trace) = (cdt.clone(), Report::default(), Trace::default());
     let insertion = Insertion::Flip(times);
-    let result = cdt.insert_polygons_watched(insertion, &mut report, &mut |_| (), Some(&mut trace));
+    let result =
+        cdt.insert_polygons_observed(insertion, &mut report, &mut |_| (), Some(&mut trace));
     let tets = result.map(|_| sorted_tets(&cdt));
     (tets, report.insertion_counts.flips, trace)
 }
 
 /// One run, compared with the expected tetrahedra.
-pub fn run(cdt: &Cdt, times: Times, expected: Option<&Tets>) -> Run {
+pub fn run(cdt: &Cdt, times: FlipOrder, expected: Option<&Tets>) -> Run {
     let (result, counts, trace) = watched(cdt, times);
     let mut total = Disorder {
         rounded_ties: Some(0),
@@ -156,7 +157,7 @@ pub fn run(cdt: &Cdt, times: Times, expected: Option<&Tets>) -> Run {
 /// Steiner points need it.
 fn is_cdt(prepared: &Prepared) -> bool {
     let (mut cdt, mut report) = (prepared.cdt.clone(), Report::default());
-    let insertion = Insertion::Flip(Times::Exact);
+    let insertion = Insertion::Flip(FlipOrder::EXACT);
     let inserted = cdt.insert_polygons(insertion, &mut report, &mut |_| ());
     let exported = inserted.and_then(|_| cdt.export(&prepared.plc, true, &mut report));
     let mut options = VerifyOptions {

@@ -1,13 +1,13 @@
 //! Which inputs are run, with which number types.
 
 use tetflip::number::Bits;
-use tetflip::recover::polygons::Times;
+use tetflip::recover::polygons::{FlipOrder, NumberType};
 
 /// A number type, and on which inputs it is run.
 #[derive(Clone, Copy, Debug)]
-pub struct NumberType {
+pub struct Numbers {
     /// The number type.
-    pub times: Times,
+    pub times: FlipOrder,
     /// It is run on the inputs whose seeds are multiples of this.
     pub every: u64,
 }
@@ -20,7 +20,7 @@ pub struct Plan {
     /// The result of inputs whose seeds are multiples of this is verified.
     pub verify_every: u64,
     /// In the order of tables.
-    pub numbers: Vec<NumberType>,
+    pub numbers: Vec<Numbers>,
 }
 
 impl Plan {
@@ -44,30 +44,34 @@ impl Plan {
 }
 
 /// All number types. Those that are slow, because they are made of big integers, are run on a sample.
-fn number_types() -> Vec<NumberType> {
-    let on_all = |times| NumberType { times, every: 1 };
-    let on_sample = |times| NumberType { times, every: 20 };
-    let on_few = |times| NumberType { times, every: 50 };
+fn number_types() -> Vec<Numbers> {
+    let on_all = |times| Numbers { times, every: 1 };
+    let on_sample = |times| Numbers { times, every: 20 };
+    let on_few = |times| Numbers { times, every: 50 };
     let mut all = vec![
-        on_all(Times::F32),
-        on_all(Times::F64),
-        on_all(Times::Filtered),
-        on_all(Times::Exact),
-        on_all(Times::Naive),
+        on_all(FlipOrder::new(NumberType::F32)),
+        on_all(FlipOrder::new(NumberType::F64)),
+        on_all(FlipOrder::FILTERED),
+        on_all(FlipOrder::EXACT),
+        on_all(FlipOrder::new(NumberType::Naive)),
     ];
-    all.extend(Bits::ALL.iter().map(|&bits| on_sample(Times::Wide(bits))));
-    all.push(on_few(Times::Rational));
+    all.extend(
+        Bits::ALL
+            .iter()
+            .map(|&bits| on_sample(FlipOrder::new(NumberType::Wide(bits)))),
+    );
+    all.push(on_few(FlipOrder::new(NumberType::Rational)));
     #[cfg(feature = "rug")]
-    all.push(on_few(Times::Rug));
+    all.push(on_few(FlipOrder::new(NumberType::Rug)));
     all
 }
 
 /// The bits of a rounded number's significand.
-pub fn precision(times: Times) -> Option<u32> {
-    match times {
-        Times::F32 => Some(f32::MANTISSA_DIGITS),
-        Times::F64 => Some(f64::MANTISSA_DIGITS),
-        Times::Wide(bits) => Some(bits.get()),
+pub fn precision(times: FlipOrder) -> Option<u32> {
+    match times.numbers {
+        NumberType::F32 => Some(f32::MANTISSA_DIGITS),
+        NumberType::F64 => Some(f64::MANTISSA_DIGITS),
+        NumberType::Wide(bits) => Some(bits.get()),
         _ => None,
     }
 }

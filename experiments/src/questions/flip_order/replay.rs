@@ -7,17 +7,17 @@ use std::fmt::Write;
 use tetflip::mesh::VertexId;
 use tetflip::predicate::PointStore;
 use tetflip::recover::flips::Fate;
-use tetflip::recover::polygons::Times;
+use tetflip::recover::polygons::FlipOrder;
 
 /// What happens when the polygons of a member are inserted with the given number type: all events that came off the queue
 /// alive, each with its rank in the exact order, and the end.
-pub fn replay(member: Member, times: Times) -> String {
+pub fn replay(member: Member, times: FlipOrder) -> String {
     let Prepared {
         plc,
         cdt,
         steiner_points,
     } = member.prepare();
-    let (reference, _, _) = watched(&cdt, Times::Exact);
+    let (reference, _, _) = watched(&cdt, FlipOrder::EXACT);
     let (result, _, trace) = watched(&cdt, times);
     let mut text = format!(
         "{member}: {} vertices, {} polygons, {steiner_points} Steiner points; times {}\n",
@@ -55,7 +55,7 @@ fn names(vertices: &[VertexId]) -> String {
     names.join(" ")
 }
 
-fn describe<P: PointStore>(points: &P, insertion: &Insertion, times: Times) -> String {
+fn describe<P: PointStore>(points: &P, insertion: &Insertion, times: FlipOrder) -> String {
     let mut vertices: Vec<VertexId> = insertion.before.iter().flatten().copied().collect();
     vertices.sort_unstable();
     vertices.dedup();
@@ -95,14 +95,15 @@ fn describe<P: PointStore>(points: &P, insertion: &Insertion, times: Times) -> S
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tetflip::recover::polygons::NumberType;
 
     #[test]
     fn a_replay_tells_the_order_and_the_end() {
         let member: Member = "prism/end:78".parse().expect("a name");
-        let text = replay(member, Times::F64);
+        let text = replay(member, FlipOrder::new(NumberType::F64));
         assert!(text.contains("schoenhardt: 7 tets, 7 vertices"), "{text}");
         assert!(!text.contains(" 0 pairs in the wrong order"), "{text}");
-        let text = replay(member, Times::Exact);
+        let text = replay(member, FlipOrder::EXACT);
         assert!(
             text.contains("outcome: ok") && text.contains(" 0 pairs in the wrong order"),
             "{text}"

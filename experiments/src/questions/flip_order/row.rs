@@ -1,7 +1,7 @@
 //! The rows of the tables. The README of this package explains the columns.
 
 use super::measure::{Measured, Run};
-use super::plan::{NumberType, Plan, precision};
+use super::plan::{Numbers, Plan, precision};
 use crate::families::FAMILIES;
 use crate::flips::schoenhardt::Class;
 use serde::Serialize;
@@ -147,7 +147,7 @@ fn summary(
     inputs: &[Measured],
     family: &'static str,
     subfamily: &'static str,
-    number: &NumberType,
+    number: &Numbers,
 ) -> Summary {
     let mut row = Summary {
         family,

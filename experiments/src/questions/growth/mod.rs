@@ -23,14 +23,14 @@ use crate::measure::rounds::{Effort, Scene};
 use crate::measure::sample::rounded;
 use crate::pictures::plot::{Plot, PlotError, Scale, Series};
 use serde::Serialize;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 
 /// The question.
 pub struct Growth;
 
 /// The methods, in the order of tables.
 const METHODS: [Method; 2] = [
-    Method(Insertion::Flip(Times::Filtered)),
+    Method(Insertion::Flip(FlipOrder::FILTERED)),
     Method(Insertion::Cavity),
 ];
 

@@ -8,7 +8,7 @@ use tetflip::cdt::{Cdt, Options};
 use tetflip::error::Failure;
 use tetflip::exchange::{ExportedMesh, Plc};
 use tetflip::predicate::Steiner;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 use tetflip::verify::{VerifyOptions, verify};
 
@@ -47,7 +47,7 @@ pub fn measure(model: &Model, rounds: usize) -> Row {
 }
 
 fn all_rounds(plc: &Plc, rounds: usize, steiner: Steiner, row: &mut Row) -> Result<(), Failure> {
-    let flips = Insertion::Flip(Times::Filtered);
+    let flips = Insertion::Flip(FlipOrder::FILTERED);
     let mut cavity_runs = Vec::new();
     let mut flip_runs = Vec::new();
     for _ in 0..rounds {

@@ -7,14 +7,14 @@ use tetflip::cdt::{Cdt, Options};
 use tetflip::clock::Task;
 use tetflip::error::Failure;
 use tetflip::exchange::Plc;
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 
 /// Two rows: cavities and flips.
 pub fn measure(of: &Of, plc: &Plc, rounds: usize) -> Vec<Row> {
     let algorithms = [
         ("cavity", Insertion::Cavity),
-        ("flip", Insertion::Flip(Times::Filtered)),
+        ("flip", Insertion::Flip(FlipOrder::FILTERED)),
     ];
     let rows = algorithms.map(|(word, insertion)| {
         let mut row = shares(plc, insertion, rounds).unwrap_or_else(|failure| {

@@ -10,13 +10,13 @@ use tetflip::cdt::{Cdt, Options};
 use tetflip::error::Failure;
 use tetflip::exchange::Plc;
 use tetflip::mesh::{TetMesh, VertexId};
-use tetflip::recover::polygons::{Insertion, Times};
+use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 
 /// How many polygons of a model are updated.
 pub const MOST_POLYGONS: usize = 300;
 
-const FLIPS: Insertion = Insertion::Flip(Times::Filtered);
+const FLIPS: Insertion = Insertion::Flip(FlipOrder::FILTERED);
 
 /// What is updated.
 pub enum Input {

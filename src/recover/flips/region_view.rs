@@ -1,4 +1,4 @@
-//! Where the flips of an insertion take place: which tetrahedra fill R, and on which side of f their vertices are.
+//! How an insertion sees R and f: which tetrahedra fill R, and on which side of f their vertices are.
 
 use crate::mesh::{TetId, VertexId};
 use crate::predicate::PointStore;
@@ -6,7 +6,7 @@ use crate::recover::region::{Side, Sides};
 use crate::recover::tables::Table;
 
 /// What an insertion by flips asks about R and f.
-pub trait Room {
+pub trait RegionView {
     /// Which of a tetrahedron's vertices are left and which are right of f, as bits.
     fn left_and_right(&self, vertices: &[VertexId; 4]) -> [u8; 2];
 
@@ -50,7 +50,7 @@ impl<'a, P> InMesh<'a, P> {
     }
 }
 
-impl<P: PointStore> Room for InMesh<'_, P> {
+impl<P: PointStore> RegionView for InMesh<'_, P> {
     #[inline]
     fn left_and_right(&self, vertices: &[VertexId; 4]) -> [u8; 2] {
         self.sides.left_and_right(vertices)

@@ -1,20 +1,20 @@
 //! Sorting a run: by about when times are, which needs no comparisons, and then by moving what is not in its place.
 
-use super::{Entry, FlipQueue};
-use crate::recover::flips::FlipTimes;
+use super::{Entry, EventQueue};
+use crate::kinetic::TimeOrder;
 use std::cmp::Ordering;
 
-impl<C: FlipTimes> FlipQueue<C> {
+impl<O: TimeOrder> EventQueue<O> {
     /// Sorts the run: into buckets by what its times are about, if that is known, and then by moving what is not in its
     /// place. Where that is too much, by comparisons alone.
-    pub(super) fn sort_run(&mut self, times: &mut C) {
+    pub(super) fn sort_run(&mut self, order: &mut O) {
         let mut run = std::mem::take(&mut self.run);
-        let is_sorted = self.distribute(&mut run) && self.move_into_place(times, &mut run)
-            || sort_by_about::<C>(&mut run, self.latest_first)
-                && self.move_into_place(times, &mut run);
+        let is_sorted = self.distribute(&mut run) && self.move_into_place(order, &mut run)
+            || sort_by_about::<O>(&mut run, self.latest_first)
+                && self.move_into_place(order, &mut run);
         if !is_sorted {
             run.sort_unstable_by(|&a, &b| {
-                if self.precedes(times, a, b) {
+                if self.precedes(order, a, b) {
                     Ordering::Greater
                 } else {
                     Ordering::Less
@@ -26,12 +26,12 @@ impl<C: FlipTimes> FlipQueue<C> {
 
     /// Brings a run into the order of as many buckets as it has entries, which divide its time evenly. `false` if it has no
     /// times to divide.
-    fn distribute(&mut self, run: &mut Vec<Entry<C::Key>>) -> bool {
+    fn distribute(&mut self, run: &mut Vec<Entry<O::Key>>) -> bool {
         if run.len() < 2 {
             return true;
         }
         let sign = if self.latest_first { -1.0 } else { 1.0 };
-        let about = |entry: &Entry<C::Key>| C::about(entry.key).map_or(f64::NAN, |t| sign * t);
+        let about = |entry: &Entry<O::Key>| O::about(entry.key).map_or(f64::NAN, |t| sign * t);
         let (mut first, mut last) = (f64::INFINITY, f64::NEG_INFINITY);
         for entry in &*run {
             let time = about(entry);
@@ -47,7 +47,7 @@ impl<C: FlipTimes> FlipQueue<C> {
         }
         // The last comes first.
         let most = run.len() - 1;
-        let bucket = |entry: &Entry<C::Key>| (((last - about(entry)) * scale) as usize).min(most);
+        let bucket = |entry: &Entry<O::Key>| (((last - about(entry)) * scale) as usize).min(most);
         self.buckets.clear();
         self.buckets.resize(run.len(), 0);
         for entry in &*run {
@@ -68,12 +68,12 @@ impl<C: FlipTimes> FlipQueue<C> {
     }
 
     /// Moves what is not in its place in a run that is nearly in order. Gives up where that is too much, and says so.
-    fn move_into_place(&mut self, times: &mut C, run: &mut [Entry<C::Key>]) -> bool {
+    fn move_into_place(&mut self, order: &mut O, run: &mut [Entry<O::Key>]) -> bool {
         let mut moves = 0;
         for i in 1..run.len() {
             let entry = run[i];
             let mut hole = i;
-            while hole > 0 && self.precedes(times, run[hole - 1], entry) {
+            while hole > 0 && self.precedes(order, run[hole - 1], entry) {
                 run[hole] = run[hole - 1];
                 hole -= 1;
             }
@@ -88,8 +88,8 @@ impl<C: FlipTimes> FlipQueue<C> {
 }
 
 /// Sorts a run by what its times are about. `false` if that is not known.
-fn sort_by_about<C: FlipTimes>(run: &mut [Entry<C::Key>], latest_first: bool) -> bool {
-    let about = |entry: &Entry<C::Key>| C::about(entry.key);
+fn sort_by_about<O: TimeOrder>(run: &mut [Entry<O::Key>], latest_first: bool) -> bool {
+    let about = |entry: &Entry<O::Key>| O::about(entry.key);
     if run.first().is_some_and(|first| about(first).is_none()) {
         return false;
     }

@@ -1,4 +1,4 @@
-//! The priority queue of flips, whose order is asked from a [`FlipTimes`], so that a comparison may use the point store
+//! The priority queue of events, whose order is asked from a [`TimeOrder`], so that a comparison may look at what moves
 //! and compute what it needs. What is moved around is keys and the numbers of events; the events stay where they are.
 //!
 //! Times only go forward, so that the far future need not be in order yet. It is divided into *spans*, each of which begins
@@ -13,8 +13,7 @@
 
 mod sorting;
 
-use super::event::Event;
-use super::time::{FlipTimes, Timing};
+use super::order::TimeOrder;
 use crate::machine::prefetch;
 use std::cmp::Ordering;
 
@@ -34,22 +33,22 @@ const MOST_SPANS: usize = 64;
 const SAMPLES: usize = 4;
 
 /// Events, the earliest first or the latest first.
-pub struct FlipQueue<C: FlipTimes> {
-    heap: Vec<Entry<C::Key>>,
+pub struct EventQueue<O: TimeOrder> {
+    heap: Vec<Entry<O::Key>>,
     /// The last comes first.
-    run: Vec<Entry<C::Key>>,
-    events: Vec<Queued<C::Time>>,
+    run: Vec<Entry<O::Key>>,
+    events: Vec<Queued<O::Event, O::Time>>,
     /// Places in `events` to be used again.
     free: Vec<u32>,
     latest_first: bool,
     /// What comes after the run and the heap: the last span comes first.
-    spans: Vec<Span<C::Key>>,
+    spans: Vec<Span<O::Key>>,
     /// How many events have ever been queued.
     arrived: u32,
     comparisons: u64,
-    /// Memory for [`FlipQueue::distribute`].
+    /// Memory for [`EventQueue::distribute`].
     buckets: Vec<u32>,
-    sorted: Vec<Entry<C::Key>>,
+    sorted: Vec<Entry<O::Key>>,
 }
 
 /// Events in the future.
@@ -65,17 +64,17 @@ struct Entry<K> {
     event: u32,
 }
 
-struct Queued<T> {
-    event: Event,
+struct Queued<E, T> {
+    event: E,
     time: T,
     /// When it was queued, for ties between rounded times.
     arrival: u32,
 }
 
-impl<C: FlipTimes> FlipQueue<C> {
+impl<O: TimeOrder> EventQueue<O> {
     /// An empty queue, which gives the earliest event first: that of an insertion.
     pub fn earliest_first() -> Self {
-        FlipQueue {
+        EventQueue {
             heap: Vec::new(),
             run: Vec::new(),
             events: Vec::new(),
@@ -94,14 +93,14 @@ impl<C: FlipTimes> FlipQueue<C> {
 
     /// An empty queue, which gives the latest event first: that of a deletion.
     pub fn latest_first() -> Self {
-        FlipQueue {
+        EventQueue {
             latest_first: true,
-            ..FlipQueue::earliest_first()
+            ..EventQueue::earliest_first()
         }
     }
 
     /// Room for so many events at a time without further allocation.
-    pub(super) fn reserve(&mut self, n: usize) {
+    pub(crate) fn reserve(&mut self, n: usize) {
         self.events.reserve(n);
         if let Some(span) = self.spans.first_mut() {
             span.entries.reserve(n);
@@ -120,14 +119,14 @@ impl<C: FlipTimes> FlipQueue<C> {
 
     /// The event that comes so many places after the first one of those that are in order already, if there are so many.
     #[inline]
-    pub(super) fn upcoming(&self, places: usize) -> Option<&Event> {
+    pub(crate) fn upcoming(&self, places: usize) -> Option<&O::Event> {
         let entry = self.run.get(self.run.len().wrapping_sub(places + 1))?;
         Some(&self.events[entry.event as usize].event)
     }
 
     /// Lets the processor fetch that event.
     #[inline]
-    pub(super) fn prefetch(&self, places: usize) {
+    pub(crate) fn prefetch(&self, places: usize) {
         if let Some(entry) = self.run.get(self.run.len().wrapping_sub(places + 1)) {
             // Both lines of the cache that it may be in.
             prefetch(&self.events, entry.event as usize);
@@ -136,43 +135,43 @@ impl<C: FlipTimes> FlipQueue<C> {
     }
 
     /// Inserts an event. O(log n) comparisons, but as many as there are spans where the event's time is hardly known.
-    pub fn push(&mut self, times: &mut C, event: Event, timing: Timing<C::Key, C::Time>) {
+    pub fn push(&mut self, order: &mut O, event: O::Event, key: O::Key, time: O::Time) {
         let queued = Queued {
             event,
-            time: timing.time,
+            time,
             arrival: self.arrived,
         };
         self.arrived = self.arrived.checked_add(1).expect("fewer than 2^32 events");
-        let entry = self.keep(timing.key, queued);
-        match self.latest_span_of(timing.key, 0) {
+        let entry = self.keep(key, queued);
+        match self.latest_span_of(key, 0) {
             Some(span) => self.spans[span].entries.push(entry),
-            None if self.run.len() < LONG_RUN && C::about(timing.key).is_some() => {
-                self.insert_in_run(times, entry);
+            None if self.run.len() < LONG_RUN && O::about(key).is_some() => {
+                self.insert_in_run(order, entry);
             }
             None => {
                 self.heap.push(entry);
-                self.sift_up(times, self.heap.len() - 1, entry);
+                self.sift_up(order, self.heap.len() - 1, entry);
             }
         }
     }
 
     /// Puts an entry into its place in the run: where it belongs by what its time is about, unless its neighbours there say
     /// otherwise.
-    fn insert_in_run(&mut self, times: &mut C, entry: Entry<C::Key>) {
+    fn insert_in_run(&mut self, order: &mut O, entry: Entry<O::Key>) {
         let time = self.about(entry.key);
-        let is_later = |other: &Entry<C::Key>| self.about(other.key) > time;
+        let is_later = |other: &Entry<O::Key>| self.about(other.key) > time;
         let mut place = self.run.partition_point(is_later);
         let fits = self
             .run
             .get(place)
             .copied()
-            .is_none_or(|next| self.precedes(times, next, entry))
-            && (place == 0 || self.precedes(times, entry, self.run[place - 1]));
+            .is_none_or(|next| self.precedes(order, next, entry))
+            && (place == 0 || self.precedes(order, entry, self.run[place - 1]));
         if !fits {
             let (mut low, mut high) = (0, self.run.len());
             while low < high {
                 let middle = (low + high) / 2;
-                if self.precedes(times, entry, self.run[middle]) {
+                if self.precedes(order, entry, self.run[middle]) {
                     low = middle + 1;
                 } else {
                     high = middle;
@@ -185,13 +184,13 @@ impl<C: FlipTimes> FlipQueue<C> {
 
     /// About when a time is, negated in a queue that gives the latest first. Anything if keys do not tell.
     #[inline(always)]
-    fn about(&self, key: C::Key) -> f64 {
-        let about = C::about(key).unwrap_or_default();
+    fn about(&self, key: O::Key) -> f64 {
+        let about = O::about(key).unwrap_or_default();
         if self.latest_first { -about } else { about }
     }
 
     /// Gives an event a place.
-    fn keep(&mut self, key: C::Key, queued: Queued<C::Time>) -> Entry<C::Key> {
+    fn keep(&mut self, key: O::Key, queued: Queued<O::Event, O::Time>) -> Entry<O::Key> {
         let place = match self.free.pop() {
             Some(place) => {
                 self.events[place as usize] = queued;
@@ -207,21 +206,21 @@ impl<C: FlipTimes> FlipQueue<C> {
 
     /// Whether a key comes after (or before, for `Less`) another one for certain.
     #[inline]
-    fn is_certain(&mut self, key: C::Key, order: Ordering, other: C::Key) -> bool {
+    fn is_certain(&mut self, key: O::Key, order: Ordering, other: O::Key) -> bool {
         self.comparisons += 1;
         let order = if self.latest_first {
             order.reverse()
         } else {
             order
         };
-        C::compare_keys(key, other) == Some(order)
+        O::compare_keys(key, other) == Some(order)
     }
 
     /// The latest of the spans from `first` on that a key belongs to for certain.
     #[inline]
-    fn latest_span_of(&mut self, key: C::Key, first: usize) -> Option<usize> {
+    fn latest_span_of(&mut self, key: O::Key, first: usize) -> Option<usize> {
         let time = self.about(key);
-        let begins_later = |span: &Span<C::Key>| {
+        let begins_later = |span: &Span<O::Key>| {
             let beginning = span.beginning;
             beginning.is_some_and(|beginning| self.about(beginning) > time)
         };
@@ -234,7 +233,7 @@ impl<C: FlipTimes> FlipQueue<C> {
     }
 
     /// Makes a run of the next span, until the first event of the run and the heap comes before the next one.
-    fn move_horizon(&mut self, times: &mut C) {
+    fn move_horizon(&mut self, order: &mut O) {
         while let Some(next) = self.spans.last() {
             // Both, if they are there: which of them is first may take an exact comparison.
             let beginning = next.beginning;
@@ -249,18 +248,18 @@ impl<C: FlipTimes> FlipQueue<C> {
             let next = self.spans.pop().expect("there is one");
             if next.entries.len() <= SHORT_SPAN || !self.divide(&next) {
                 self.run.extend(next.entries);
-                self.sort_run(times);
+                self.sort_run(order);
             }
         }
     }
 
     /// Divides a span, if that is possible.
-    fn divide(&mut self, span: &Span<C::Key>) -> bool {
+    fn divide(&mut self, span: &Span<O::Key>) -> bool {
         let n = span.entries.len();
         let spans = (n / SPAN).min(MOST_SPANS);
         let samples = span.entries.iter().step_by(n / (SAMPLES * spans));
-        let mut samples: Vec<(f64, C::Key)> = samples
-            .filter_map(|entry| Some((C::about(entry.key)?, entry.key)))
+        let mut samples: Vec<(f64, O::Key)> = samples
+            .filter_map(|entry| Some((O::about(entry.key)?, entry.key)))
             .collect();
         samples.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         if self.latest_first {
@@ -268,7 +267,7 @@ impl<C: FlipTimes> FlipQueue<C> {
         }
         // What is in a span must come after the beginnings of all earlier ones, too: they are in order for certain.
         let next = self.spans.last().and_then(|span| span.beginning);
-        let mut beginnings: Vec<C::Key> = Vec::new();
+        let mut beginnings: Vec<O::Key> = Vec::new();
         for &(_, key) in samples.iter().skip(SAMPLES / 2).step_by(SAMPLES) {
             let last = beginnings.last().copied();
             if last.is_none_or(|last| self.is_certain(key, Ordering::Greater, last))
@@ -304,18 +303,18 @@ impl<C: FlipTimes> FlipQueue<C> {
     }
 
     /// Removes the first event.
-    pub fn pop(&mut self, times: &mut C) -> Option<Event> {
-        self.move_horizon(times);
+    pub fn pop(&mut self, order: &mut O) -> Option<O::Event> {
+        self.move_horizon(order);
         let from_run = match (self.run.last().copied(), self.heap.first().copied()) {
             (None, None) => return None,
             (Some(_), None) => true,
             (None, Some(_)) => false,
-            (Some(a), Some(b)) => self.precedes(times, a, b),
+            (Some(a), Some(b)) => self.precedes(order, a, b),
         };
         let first = if from_run {
             self.run.pop()
         } else {
-            self.pop_heap(times)
+            self.pop_heap(order)
         };
         let first = first.expect("one of them is not empty").event;
         self.free.push(first);
@@ -324,18 +323,18 @@ impl<C: FlipTimes> FlipQueue<C> {
 
     /// Removes the first event of the heap. About log₂ n comparisons: the hole at the top sinks to a leaf along the
     /// earlier children, and the last event rises from there, usually not far (Floyd's variant; comparisons are what costs).
-    fn pop_heap(&mut self, times: &mut C) -> Option<Entry<C::Key>> {
+    fn pop_heap(&mut self, order: &mut O) -> Option<Entry<O::Key>> {
         let first = self.heap.first().copied()?;
         let last = self.heap.pop().expect("the heap is not empty");
         if !self.heap.is_empty() {
-            let hole = self.sink(times);
-            self.sift_up(times, hole, last);
+            let hole = self.sink(order);
+            self.sift_up(order, hole, last);
         }
         Some(first)
     }
 
     /// Sinks a hole from the top to a leaf.
-    fn sink(&mut self, times: &mut C) -> usize {
+    fn sink(&mut self, order: &mut O) -> usize {
         let n = self.heap.len();
         let mut hole = 0;
         loop {
@@ -343,7 +342,7 @@ impl<C: FlipTimes> FlipQueue<C> {
             if left >= n {
                 return hole;
             }
-            let right_first = right < n && self.precedes(times, self.heap[right], self.heap[left]);
+            let right_first = right < n && self.precedes(order, self.heap[right], self.heap[left]);
             let child = if right_first { right } else { left };
             self.heap[hole] = self.heap[child];
             hole = child;
@@ -351,10 +350,10 @@ impl<C: FlipTimes> FlipQueue<C> {
     }
 
     /// Puts an entry into a hole or above it.
-    fn sift_up(&mut self, times: &mut C, mut hole: usize, entry: Entry<C::Key>) {
+    fn sift_up(&mut self, order: &mut O, mut hole: usize, entry: Entry<O::Key>) {
         while hole > 0 {
             let parent = (hole - 1) / 2;
-            if !self.precedes(times, entry, self.heap[parent]) {
+            if !self.precedes(order, entry, self.heap[parent]) {
                 break;
             }
             self.heap[hole] = self.heap[parent];
@@ -364,104 +363,24 @@ impl<C: FlipTimes> FlipQueue<C> {
     }
 
     #[inline]
-    fn precedes(&mut self, times: &mut C, a: Entry<C::Key>, b: Entry<C::Key>) -> bool {
+    fn precedes(&mut self, order: &mut O, a: Entry<O::Key>, b: Entry<O::Key>) -> bool {
         self.comparisons += 1;
-        let order = C::compare_keys(a.key, b.key).unwrap_or_else(|| self.compare(times, a, b));
+        let order = O::compare_keys(a.key, b.key).unwrap_or_else(|| self.compare(order, a, b));
         (order == Ordering::Less) != self.latest_first
     }
 
     /// Where the keys do not tell. Never `Equal`: in the end the arrival decides.
     #[cold]
-    fn compare(&self, times: &mut C, a: Entry<C::Key>, b: Entry<C::Key>) -> Ordering {
+    fn compare(&self, order: &mut O, a: Entry<O::Key>, b: Entry<O::Key>) -> Ordering {
         let (a, b) = (
             &self.events[a.event as usize],
             &self.events[b.event as usize],
         );
-        times
+        order
             .compare((&a.event, &a.time), (&b.event, &b.time))
             .then(a.arrival.cmp(&b.arrival))
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::event::Signs;
-    use super::super::time::{Timed, Undecided};
-    use super::*;
-    use crate::mesh::{TetId, VertexId};
-
-    /// Times that are plain integers.
-    struct Integers;
-
-    impl FlipTimes for Integers {
-        type Key = i32;
-        type Time = ();
-        const EXACT: bool = true;
-        fn time_across(
-            &mut self,
-            _: [VertexId; 4],
-            _: [VertexId; 5],
-            _: impl FnOnce(Signs, bool) -> bool,
-        ) -> Option<Timing<i32, ()>> {
-            None
-        }
-        fn about(key: i32) -> Option<f64> {
-            Some(f64::from(key / 5))
-        }
-        fn compare_keys(a: i32, b: i32) -> Option<Ordering> {
-            Some(a.cmp(&b)).filter(|o| o.is_ne())
-        }
-        fn compare(&mut self, _: Timed<()>, _: Timed<()>) -> Ordering {
-            Ordering::Equal
-        }
-        fn undecided(&self) -> Undecided {
-            Undecided::default()
-        }
-    }
-
-    /// The (time, arrival) of the last 3000 of 5000 events, many at the same time, as they come off a queue.
-    fn sorted_by(mut queue: FlipQueue<Integers>) -> Vec<(i32, u32)> {
-        let time = |arrival: u32| (arrival * 37 % 411) as i32;
-        let push = |queue: &mut FlipQueue<Integers>, arrival| {
-            let event = Event {
-                circuit: [VertexId(0); 5],
-                tet: TetId(arrival),
-                signs: Signs::UNKNOWN,
-            };
-            let timing = Timing {
-                key: time(arrival),
-                time: (),
-                signs: Signs::UNKNOWN,
-            };
-            queue.push(&mut Integers, event, timing);
-        };
-        for arrival in 0..3000 {
-            push(&mut queue, arrival);
-        }
-        // Places are used again.
-        for arrival in 3000..5000 {
-            let first = queue.pop(&mut Integers).expect("3000 events");
-            push(&mut queue, arrival);
-            assert!(first.tet.0 < arrival);
-        }
-        let mut order = Vec::new();
-        while let Some(event) = queue.pop(&mut Integers) {
-            order.push((time(event.tet.0), event.tet.0));
-        }
-        order
-    }
-
-    #[test]
-    fn events_come_in_order_of_time_then_of_arrival() {
-        let order = sorted_by(FlipQueue::earliest_first());
-        assert_eq!(order.len(), 3000);
-        assert!(order.is_sorted());
-    }
-
-    #[test]
-    fn the_latest_come_first_if_asked() {
-        let order = sorted_by(FlipQueue::latest_first());
-        assert_eq!(order.len(), 3000);
-        assert!(order.is_sorted_by(|a, b| b <= a));
-    }
-}
+mod tests;

@@ -1,5 +1,4 @@
-//! Watching flips happen: for experiments and pictures. An insertion that nobody watches pays one untaken branch per
-//! event.
+//! Observing flips: for experiments and pictures. An insertion that nobody observes pays one untaken branch per event.
 
 use super::FlipOutcome;
 use super::moves::FlipKind;
@@ -25,7 +24,7 @@ pub enum Fate {
 }
 
 /// Is told what happens. All methods do nothing by default.
-pub trait Watch {
+pub trait FlipObserver {
     /// The insertion of one missing region of a polygon (by its index in [`crate::plc::Complex`]) begins. Left vertices
     /// are those v of the region's tetrahedra with orient3d(frame, v) > 0; a polygon that is flat only to rounding may be
     /// tried twice, the second time from behind.
