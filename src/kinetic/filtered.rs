@@ -9,6 +9,7 @@ use super::exact::{ExactOrder, Motion};
 use super::order::{TimeOrder, Timed};
 use super::quotient::{Quotient, first_difference};
 use crate::number::Dyadic;
+use crate::number::bits::exponent;
 use std::cell::Cell;
 use std::cmp::Ordering;
 
@@ -94,19 +95,16 @@ impl<M: Motion<Dyadic, K>, const K: usize> FilteredOrder<M, K> {
         self.ties + self.exact.ties
     }
 
-    /// The time of an event with certainly positive D, given N and D with bounds of their errors and, where they are known,
-    /// in quanta. The first time sets the scale; `typical` is what times are like, if that one is 0.
+    /// Keeps a quotient in quanta.
+    #[inline]
+    pub fn in_integers(&mut self, integers: InQuanta<K>) -> FilteredTime {
+        self.keep(Exactly::Integers(integers))
+    }
+
+    /// The key of an event with certainly positive D, given N and D with bounds of their errors. The first one sets the scale;
+    /// `typical` is what times are like, if that one is 0.
     #[inline(always)]
-    pub fn enclosed(
-        &mut self,
-        [n, d]: [&Bounded; 2],
-        in_quanta: Option<InQuanta<K>>,
-        typical: impl FnOnce() -> f64,
-    ) -> (Enclosure, FilteredTime) {
-        let time = match in_quanta {
-            Some(integers) => self.keep(Exactly::Integers(integers)),
-            None => FilteredTime::default(),
-        };
+    pub fn key(&mut self, [n, d]: [&Bounded; 2], typical: impl FnOnce() -> f64) -> Enclosure {
         let (middle, width) = enclosure(n, d);
         let scale = *self.scale.get_or_insert_with(|| {
             // The first event may be due at time 0.
@@ -114,8 +112,7 @@ impl<M: Motion<Dyadic, K>, const K: usize> FilteredOrder<M, K> {
             let typical = typical.into_iter().find(|time| time.is_normal());
             typical.map_or(1.0, inverse_power)
         });
-        let key = Enclosure::new(middle * scale, ((width * scale) as f32).next_up());
-        (key, time)
+        Enclosure::new(middle * scale, ((width * scale) as f32).next_up())
     }
 
     /// The time of an event of which floats know nothing; `None` if D ≤ 0.
@@ -213,6 +210,5 @@ impl<M: Motion<Dyadic, K>, const K: usize> TimeOrder for FilteredOrder<M, K> {
 
 /// A power of two that brings a normal number near 1.
 fn inverse_power(x: f64) -> f64 {
-    let exponent = ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-    2f64.powi((-exponent).clamp(-1000, 1000))
+    2f64.powi((-exponent(x)).clamp(-1000, 1000))
 }

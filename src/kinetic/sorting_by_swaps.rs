@@ -80,10 +80,11 @@ impl Times for FilteredOrder<OnLine<'_>, 2> {
             let quotient = [n.in_quanta(1.0), d.in_quanta(1.0)].map(|i| i.expect("small"));
             InQuanta::new(quotient, [(event[0] as u32, 1), (event[1] as u32, -1)])
         });
-        match d.is_positive() {
-            true => Some(self.enclosed([&n, &d], in_quanta, || 1.0)),
-            false => self.unknown(event),
+        if !d.is_positive() {
+            return self.unknown(event);
         }
+        let time = in_quanta.map_or_else(FilteredTime::default, |q| self.in_integers(q));
+        Some((self.key([&n, &d], || 1.0), time))
     }
 
     fn order(&mut self) -> &mut Self {

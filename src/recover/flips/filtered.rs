@@ -4,7 +4,7 @@ use super::event::{Event, Signs};
 use super::filter::Filter;
 use super::motion::{Circuits, PolygonMotion};
 use super::time::{FlipTime, FlipTimes, Undecided};
-use crate::kinetic::{FilteredOrder, InQuanta};
+use crate::kinetic::{FilteredOrder, FilteredTime, InQuanta};
 use crate::mesh::VertexId;
 use crate::number::Dyadic;
 use crate::predicate::PointStore;
@@ -59,14 +59,18 @@ impl<'a, P: PointStore> FlipTimes for FilteredTimes<'a, P> {
             return Some(FlipTime { key, time, signs });
         }
         let n = self.filter.resting(&rising);
-        let in_quanta = self.filter.integers(&rising, &n).map(|(quotient, c)| {
-            let identity = |i: usize| self.points.identity(circuit[i]);
-            InQuanta::new(quotient, [0, 1, 2, 3, 4].map(|i| (identity(i), c[i])))
-        });
+        let time = match self.filter.integers(&rising, &n) {
+            Some((quotient, c)) => {
+                let identity = |i: usize| self.points.identity(circuit[i]);
+                let terms = [0, 1, 2, 3, 4].map(|i| (identity(i), c[i]));
+                self.order.in_integers(InQuanta::new(quotient, terms))
+            }
+            None => FilteredTime::default(),
+        };
         let filter = &self.filter;
-        let (key, time) = self
+        let key = self
             .order
-            .enclosed([&n, &rising.d], in_quanta, || filter.typical_time(&rising));
+            .key([&n, &rising.d], || filter.typical_time(&rising));
         Some(FlipTime { key, time, signs })
     }
 
