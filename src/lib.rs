@@ -14,15 +14,16 @@
 //!                          └──▶ verify: Plc + ExportedMesh ──▶ Verdict (exact, by its own means)
 //! ```
 //!
-//! [`cdt`] is that picture as code, one call per phase. Below it, `number` ← `predicate` and `mesh` (topology alone)
-//! know nothing of each other; `delaunay` and `recover` join them.
+//! [`cdt`] is that picture as code, one call per phase. At the bottom are `number`, which knows no mesh, and `mesh`
+//! (topology alone), which knows no number. `predicate` has the signs of points, which it names by the ids of the mesh;
+//! `delaunay` and `recover` build on all three.
 //!
 //! Every sign that decides anything is exact, for all finite doubles. The library neither panics on user input nor
 //! prints: bad input and an algorithm that gave up are values ([`error::Failure`]), counts and seconds are a struct
 //! ([`report::Report`]).
 //!
-//! What many vertices, tetrahedra or lines allow to be shared is done by all threads of the current [`rayon`] pool. The results
-//! do not depend on their number.
+//! Work on many vertices, tetrahedra or lines is shared by all threads of the current [`rayon`] pool. The results do
+//! not depend on their number.
 //!
 //! # Example
 //!

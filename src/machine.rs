@@ -1,9 +1,9 @@
-//! What the processor offers and safe Rust does not: two doubles or four integers in one register, and prefetching. The one
-//! module with unsafe code; it pays: tetrahedralizing a million points takes 20 % less time with it.
+//! What the processor offers and safe Rust does not: two doubles or four integers in one register, and prefetching. The
+//! one module with unsafe code; it pays: tetrahedralizing a million points takes 20 % less time with it.
 //!
-//! Proof of safety: SSE and SSE2, which all intrinsics here belong to, are part of the x86-64 architecture, so that there is no x86-64
-//! without it, and none of them but the prefetch touches memory. A prefetch is a hint, which never faults, whatever the
-//! address, and changes nothing that a program can see.
+//! Proof of safety: SSE and SSE2, which all intrinsics here belong to, are part of the x86-64 architecture, so that
+//! there is no x86-64 without it, and none of them but the prefetch touches memory. A prefetch is a hint, which never
+//! faults, whatever the address, and changes nothing that a program can see.
 
 use std::ops::{Add, Mul, Sub};
 

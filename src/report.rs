@@ -1,4 +1,5 @@
-//! What a run did: counts and seconds per phase, as plain documented structs. The only clock of the library is here.
+//! What a run did: counts and seconds per phase, as plain documented structs. (The library reads a clock here and in
+//! [`crate::clock`], for the tasks of polygon insertion, and nowhere else.)
 
 use crate::predicate::Steiner;
 use crate::recover::flatten::FlatteningCounts;
@@ -80,8 +81,8 @@ pub struct Report {
     pub hull_instead: bool,
     /// Exact Steiner points that output does not round to the nearest doubles, so that tetrahedra stay positive.
     pub moved_by_rounding: usize,
-    /// Tetrahedra that are positive with the exact Steiner points but not with the rounded ones, by index in the output,
-    /// counting from 0.
+    /// Tetrahedra that are positive with the exact Steiner points but not with the rounded ones, by index in the
+    /// output, counting from 0.
     pub spoilt_by_rounding: Vec<usize>,
     /// How many signs the verifier had to decide by integers ([`crate::verify::Counts::exact_signs`]), if it was asked.
     #[serde(skip_serializing_if = "Option::is_none")]

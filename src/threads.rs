@@ -1,5 +1,5 @@
-//! Work on many elements, done by all threads of the pool in chunks; what comes out is in the order of the elements, and does not
-//! depend on the number of threads.
+//! Work on many elements, done by all threads of the pool in chunks; what comes out is in the order of the elements,
+//! and does not depend on the number of threads.
 
 use rayon::prelude::*;
 use std::ops::Range;
@@ -7,7 +7,8 @@ use std::ops::Range;
 /// Chunks for each thread, so that none waits long for the others.
 const EACH: usize = 4;
 
-/// `0..n` in parts: one, if there is one thread or there are fewer than two times `least`, else parts of `least` at least.
+/// `0..n` in parts: one, if there is one thread or there are fewer than two times `least`, else parts of `least` at
+/// least.
 fn ranges(n: usize, least: usize) -> Vec<Range<usize>> {
     // The pool is not even started for a few elements.
     if n < 2 * least || rayon::current_num_threads() == 1 {
@@ -70,7 +71,7 @@ fn joined<T>(parts: Vec<Vec<T>>) -> Vec<T> {
     all
 }
 
-/// Sorts what is different wherever it compares different.
+/// Sorts items of which equal ones cannot be told apart.
 pub(crate) fn sort<T: Ord + Send>(items: &mut [T], least: usize) {
     if items.len() < least || rayon::current_num_threads() == 1 {
         items.sort_unstable();
@@ -79,9 +80,9 @@ pub(crate) fn sort<T: Ord + Send>(items: &mut [T], least: usize) {
     }
 }
 
-/// How many of `0..n` are such.
-pub(crate) fn count(n: usize, least: usize, is_such: impl Fn(usize) -> bool + Sync) -> usize {
-    let parts = in_parts(n, least, |range| range.filter(|&i| is_such(i)).count());
+/// How many of `0..n` have a property.
+pub(crate) fn count(n: usize, least: usize, has_it: impl Fn(usize) -> bool + Sync) -> usize {
+    let parts = in_parts(n, least, |range| range.filter(|&i| has_it(i)).count());
     parts.into_iter().sum()
 }
 

@@ -41,7 +41,7 @@ impl Cdt<DoublePoints> {
             )?;
             let n = self.points.len();
             let walls = SimplexIndex::of_triangles(n, self.subpolygons.iter());
-            let marks = mark_domain(plc, &mut self.points, &self.mesh, &walls, keep_hull)?;
+            let marks = mark_domain(plc, &self.points, &self.mesh, &walls, keep_hull)?;
             let mut repair = Repair {
                 points: &self.points,
                 mesh: Cow::Borrowed(&self.mesh),

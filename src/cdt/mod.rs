@@ -129,7 +129,7 @@ impl Cdt<DoublePoints> {
             recover_segments(&complex, &mut points, &mut delaunay)
         });
         report.steiner_points = points.len() - plc.vertices.len();
-        report.steiner_not_doubles = points.no_doubles();
+        report.steiner_not_doubles = points.count_not_double();
         let (mut subsegments, mut incidence) = recovered?;
         report.steiner_points_on_segment = subsegments.count_exact(&points);
         let index = SegmentIndex::new(&complex);

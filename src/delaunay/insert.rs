@@ -86,15 +86,50 @@ impl Delaunay {
         self.replace_conflicts(p);
     }
 
-    /// Inserts p into a part of a mesh, from `start`, where it was located, unless what is to be replaced touches other parts
-    /// ([`WALL`]): then nothing changes, and the answer is no.
+    /// Inserts p, if no vertex of the mesh is at its place.
+    ///
+    /// # Errors
+    /// That vertex, and p.
+    #[inline]
+    pub(super) fn insert_new<P: PointStore>(
+        &mut self,
+        points: &P,
+        p: VertexId,
+    ) -> Result<(), [VertexId; 2]> {
+        let start = self.locate(points, p);
+        if let Some(v) = self.vertex_at(points, p, start) {
+            return Err([v, p]);
+        }
+        self.find_conflicts(points, p, start);
+        self.replace_conflicts(p);
+        Ok(())
+    }
+
+    /// The vertex at the place of p, if there is one; p was located in `t`, which then has it.
+    #[inline]
+    pub(super) fn vertex_at<P: PointStore>(
+        &self,
+        points: &P,
+        p: VertexId,
+        t: TetId,
+    ) -> Option<VertexId> {
+        let v = self.mesh.vertices(t);
+        if any_infinite(v) {
+            // Beyond a facet of the hull, where no vertex is.
+            return None;
+        }
+        v.into_iter().find(|&v| points.coincide(v, p))
+    }
+
+    /// Inserts p into a part of a mesh, from `start`, where it was located, unless what is to be replaced touches
+    /// other parts ([`WALL`]), or a vertex is at the place of p: then nothing changes, and the answer is no.
     pub(super) fn insert_within<P: PointStore>(
         &mut self,
         points: &P,
         p: VertexId,
         start: TetId,
     ) -> bool {
-        if start == WALL {
+        if start == WALL || self.vertex_at(points, p, start).is_some() {
             return false;
         }
         self.find_conflicts(points, p, start);

@@ -1,8 +1,8 @@
 //! Which facets of a triangulated sphere are next to each other, if it has many vertices.
 //!
-//! As in the smaller table, each directed edge has a place by the numbers of its ends; what is not on this sphere is left over
-//! from others, and is not read. There are many more places than edges, but only those of edges are ever touched. Beyond
-//! [`MOST`] vertices a hash table is used.
+//! As in the smaller table, each directed edge has a place by the numbers of its ends; what is not on this sphere is
+//! left over from others, and is not read. There are many more places than edges, but only those of edges are ever
+//! touched. Beyond [`MOST`] vertices a hash table is used.
 
 use crate::mesh::{Corner, TetId, VertexId};
 use rustc_hash::FxHashMap;
@@ -19,15 +19,16 @@ pub(super) struct Large {
     members: Vec<VertexId>,
     /// For each facet the numbers of its vertices.
     facets: Vec<[u32; 3]>,
-    /// For the directed edge from the vertex with number i to that with number j, at the number of vertices times i, plus j,
-    /// the new corner opposite the facet that it spans with the new vertex.
+    /// For the directed edge from the vertex with number i to that with number j, at the number of vertices times i,
+    /// plus j, the new corner opposite the facet that it spans with the new vertex.
     opposite: Vec<Corner>,
     /// The same, for more vertices.
     hashed: FxHashMap<[u32; 2], Corner>,
 }
 
 impl Large {
-    /// Learns the edges of facets, of which those at slots 1, 2, 3 of the given tetrahedra are opposite to their vertices.
+    /// Learns the edges of facets, of which those at slots 1, 2, 3 of the given tetrahedra are opposite to their
+    /// vertices.
     pub(super) fn fill(&mut self, facets: impl Iterator<Item = [VertexId; 3]>, new: &[TetId]) {
         self.members.clear();
         self.facets.clear();

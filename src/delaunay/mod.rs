@@ -12,6 +12,7 @@
 mod build;
 mod insert;
 mod large;
+mod of_points;
 mod order;
 mod parallel;
 mod removal;
@@ -19,5 +20,6 @@ mod star;
 
 pub use build::{DelaunayError, delaunay, delaunay_by};
 pub use insert::Delaunay;
+pub use of_points::{PointsDelaunay, delaunay_of_points};
 pub use order::insertion_order;
 pub use removal::filling;

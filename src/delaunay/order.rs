@@ -70,8 +70,8 @@ impl Rounds {
         order
     }
 
-    /// The curve cut into so many pieces, of about as many vertices each: by round, where in the order the pieces begin, and
-    /// at last where the round ends.
+    /// The curve cut into so many pieces, of about as many vertices each: by round, where in the order the pieces
+    /// begin, and at last where the round ends.
     pub fn cuts(&self, pieces: usize) -> Vec<Vec<usize>> {
         let last = self.rounds.last().expect("there is a round");
         let cut = |k: usize| {
@@ -116,8 +116,8 @@ fn mix(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// The place of a grid cell on the Hilbert curve (Hamilton & Rau-Chaplin 2008), from the coarsest level to the finest: the
-/// table gives the place of a level's octant on the curve, and how the curve runs within it.
+/// The place of a grid cell on the Hilbert curve (Hamilton & Rau-Chaplin 2008), from the coarsest level to the finest:
+/// the table gives the place of a level's octant on the curve, and how the curve runs within it.
 fn hilbert_index(cell: [u32; 3]) -> u64 {
     let [x, y, z] = cell.map(spread);
     let octants = x | y << 1 | z << 2;
@@ -134,7 +134,8 @@ fn hilbert_index(cell: [u32; 3]) -> u64 {
 /// By 8·state + octant: 8·(next state) + the place of the octant on the curve.
 const CURVE: [u8; 192] = curve();
 
-/// A state is the corner where the curve enters a cube and the axis along which it goes through: 3·corner + axis, 24 states.
+/// A state is the corner where the curve enters a cube and the axis along which it goes through: 3·corner + axis, 24
+/// states.
 const fn curve() -> [u8; 192] {
     let mut table = [0; 192];
     let mut state = 0;

@@ -1,17 +1,17 @@
 //! Insertion by several threads.
 //!
-//! The Hilbert curve is cut into as many pieces as there are threads, and the tetrahedralization of the first rounds into as
-//! many parts ([`TetMesh::split`]): a tetrahedron belongs where most of its vertices are. Each thread inserts the vertices of
-//! its piece into its part. A vertex whose conflict zone contains a tetrahedron with a neighbour in another part is left
-//! over; so these tetrahedra stay as they are, and the parts fit together in the end. What is left over follows then, in one
-//! thread.
+//! The Hilbert curve is cut into as many pieces as there are threads, and the tetrahedralization of the first rounds
+//! into as many parts ([`TetMesh::split`]): a tetrahedron belongs where most of its vertices are. Each thread inserts
+//! the vertices of its piece into its part. A vertex whose conflict zone contains a tetrahedron with a neighbour in
+//! another part is left over; so these tetrahedra stay as they are, and the parts fit together in the end. What is left
+//! over follows then, in one thread.
 //!
-//! The parts together are at any time the Delaunay tetrahedralization of all vertices inserted so far. For the conflict zone
-//! of p is connected, and the search for it, from a tetrahedron in conflict, sees all its neighbours: if all of them are in
-//! the part then the zone is that in the whole, and it is replaced as in the whole. The threads' insertions do not share
-//! a tetrahedron that they look at, since what one thread changes has all its neighbours in that thread's part: so any
-//! interleaving is a serial order. Since that tetrahedralization is unique, the result does not depend on the number of
-//! threads, except for the ids of its tetrahedra and the order of their vertices.
+//! The parts together are at any time the Delaunay tetrahedralization of all vertices inserted so far. For the conflict
+//! zone of p is connected, and the search for it, from a tetrahedron in conflict, sees all its neighbours: if all of
+//! them are in the part then the zone is that in the whole, and it is replaced as in the whole. The threads' insertions
+//! do not share a tetrahedron that they look at, since what one thread changes has all its neighbours in that thread's
+//! part: so any interleaving is a serial order. Since that tetrahedralization is unique, the result does not depend on
+//! the number of threads, except for the ids of its tetrahedra and the order of their vertices.
 //!
 //! For uniform points the interface has O(m^(2/3)) tetrahedra after m vertices in the first rounds, and the part of the
 //! others that are left over is O(m^(−1/3)).
@@ -74,13 +74,17 @@ impl Plan {
         later.map(|round| round[piece + 1] - round[piece]).sum()
     }
 
-    /// Inserts all vertices that are not in the first rounds, except `seed`, into the tetrahedralization of these and `seed`.
+    /// Inserts all vertices that are not in the first rounds, except `seed`, into the tetrahedralization of these and
+    /// `seed`.
+    ///
+    /// # Errors
+    /// Two vertices at one place.
     pub fn insert_rest<P: PointStore>(
         &self,
         first: Delaunay,
         points: &P,
         seed: [VertexId; 4],
-    ) -> Delaunay {
+    ) -> Result<Delaunay, [VertexId; 2]> {
         let tets = |vertices: usize| 7 * vertices + 64;
         let mut room: Vec<usize> = (0..self.pieces)
             .map(|k| tets(self.prefix() / self.pieces + self.count(k)))
@@ -103,9 +107,9 @@ impl Plan {
         left.sort_unstable();
         let mut whole = Delaunay::from_mesh(TetMesh::unite(parts, &interface));
         for v in left {
-            whole.insert(points, v);
+            whole.insert_new(points, v)?;
         }
-        whole
+        Ok(whole)
     }
 
     /// Inserts the vertices of a piece into a part of the mesh; returns those left over, too.

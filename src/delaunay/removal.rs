@@ -1,9 +1,9 @@
 //! Vertex removal: what fills the hole that a vertex leaves in a Delaunay tetrahedralization (Devillers 1999).
 //!
 //! The star of v is replaced by those tetrahedra of the Delaunay tetrahedralization of v's neighbours that lie in the
-//! star. They are Delaunay among all vertices: every tetrahedron of the hole in the tetrahedralization without v has its
-//! vertices among the neighbours, so with perturbed weights, where there is one tetrahedralization only, it is among
-//! those of the neighbours. Ghosts, where v is on the convex hull, are treated like the others.
+//! star. They are Delaunay among all vertices: every tetrahedron of the hole in the tetrahedralization without v has
+//! its vertices among the neighbours, so with perturbed weights, where there is one tetrahedralization only, it is
+//! among those of the neighbours. Ghosts, where v is on the convex hull, are treated like the others.
 
 use super::delaunay;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId, canonical_face};

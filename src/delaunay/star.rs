@@ -2,9 +2,9 @@
 //!
 //! The boundary is a triangulated sphere, so that each directed edge belongs to one of its facets, and the facet on the
 //! other side has the reversed edge: a table by pairs of vertices finds it (as in Marot, Pellerin & Remacle 2019). The
-//! vertices of a boundary, about 16 of them, are numbered from 0 in order of appearance, by a sparse set (Briggs & Torczon
-//! 1993), which needs no clearing, so that the table is small and stays in the nearest cache. Boundaries of more vertices
-//! than it has rows use a larger one (`large.rs`).
+//! vertices of a boundary, about 16 of them, are numbered from 0 in order of appearance, by a sparse set (Briggs &
+//! Torczon 1993), which needs no clearing, so that the table is small and stays in the nearest cache. Boundaries of
+//! more vertices than it has rows use a larger one (`large.rs`).
 
 use super::large::Large;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
@@ -15,13 +15,14 @@ const ROWS: usize = 64;
 /// Scratch memory, between the filling of one cavity and of the next.
 #[derive(Clone, Debug)]
 pub(super) struct Star {
-    /// The number of a vertex, if [`Star::members`] says so; by id plus one, so that the vertex at infinity is the first.
+    /// The number of a vertex, if [`Star::members`] says so; by id plus one, so that the vertex at infinity is the
+    /// first.
     numbers: Vec<u8>,
     /// The vertices of the boundary, by number.
     members: [VertexId; ROWS],
     count: usize,
-    /// For the directed edge from the vertex with number i to that with number j, at ROWS·i + j, the new corner opposite
-    /// the facet that it spans with the new vertex. What is not on this boundary is left over from others.
+    /// For the directed edge from the vertex with number i to that with number j, at ROWS·i + j, the new corner
+    /// opposite the facet that it spans with the new vertex. What is not on this boundary is left over from others.
     opposite: Box<[Corner; ROWS * ROWS]>,
     /// In place of the table, for boundaries of more vertices.
     large: Large,

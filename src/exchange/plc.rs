@@ -7,7 +7,8 @@ use crate::mesh::VertexId;
 pub struct Plc {
     /// The number of the first vertex in the file, in most formats 0 or 1; ids in this struct always count from 0.
     pub first_index: u32,
-    /// The numbers of the vertices in the file, if they are not successive from [`Plc::first_index`] on; otherwise empty.
+    /// The numbers of the vertices in the file, if they are not successive from [`Plc::first_index`] on; otherwise
+    /// empty.
     pub numbers: Vec<i64>,
     /// Finite coordinates.
     pub vertices: Vec<[f64; 3]>,

@@ -7,8 +7,8 @@ use super::topology::slot_of;
 use super::{Corner, TetId, TetMesh, VertexId};
 
 impl TetMesh {
-    /// Which facets of the tetrahedra that [`TetMesh::two_to_three`] returns are on the boundary of the flipped volume, by
-    /// the bits of the opposite corners.
+    /// Which facets of the tetrahedra that [`TetMesh::two_to_three`] returns are on the boundary of the flipped volume,
+    /// by the bits of the opposite corners.
     pub(crate) const OUTER_OF_THREE: [u8; 4] = [0b0011, 0b0101, 0b1001, 0];
     /// The same for [`TetMesh::three_to_two`].
     pub(crate) const OUTER_OF_TWO: [u8; 4] = [0b1011, 0b1101, 0, 0];

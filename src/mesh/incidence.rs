@@ -49,8 +49,8 @@ impl Incidence {
         t.filter(|&t| t != NONE)
     }
 
-    /// A tetrahedron with the edge ab, by a search of both stars in turn: time linear in the size of the smaller one, as
-    /// one of the ends may be the hub of very many edges.
+    /// A tetrahedron with the edge ab, by a search of both stars in turn: time linear in the size of the smaller one,
+    /// as one of the ends may be the hub of very many edges.
     pub fn tet_at_edge(&self, mesh: &TetMesh, a: VertexId, b: VertexId) -> Option<TetId> {
         let mut stars = (self.walk(mesh, a), self.walk(mesh, b));
         loop {

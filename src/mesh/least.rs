@@ -1,7 +1,8 @@
 //! Simplices grouped by their least vertex: sorted and found without comparing or hashing them all.
 //!
-//! Vertices are small numbers, and few simplices have the same least vertex, so that a counting sort does nearly all of the
-//! work. O(n + k log d) for k simplices on n vertices, of which d at most have the same least vertex; O(log d) for a look-up.
+//! Vertices are small numbers, and few simplices have the same least vertex, so that a counting sort does nearly all of
+//! the work. O(n + k log d) for k simplices on n vertices, of which d at most have the same least vertex; O(log d) for
+//! a look-up.
 
 use super::VertexId;
 use crate::threads;

@@ -1,8 +1,8 @@
 //! A mesh in parts that can be changed independently, each by a thread of its own.
 //!
-//! In the mesh of a part, the tetrahedron [`WALL`], without vertices, stands for all those of other parts: what lies across
-//! the facets of the interface is its first corner. Invariant, left to whoever changes a part: a tetrahedron that has such a
-//! facet stays as it is. Then the parts fit together again whatever else has been done to them.
+//! In the mesh of a part, the tetrahedron [`WALL`], without vertices, stands for all those of other parts: what lies
+//! across the facets of the interface is its first corner. Invariant, left to whoever changes a part: a tetrahedron
+//! that has such a facet stays as it is. Then the parts fit together again whatever else has been done to them.
 
 use super::topology::{DEAD, Tet};
 use super::{Corner, TetId, TetMesh, VertexId};
@@ -21,8 +21,8 @@ pub(crate) fn is_wall(vertices: [VertexId; 4]) -> bool {
 pub(crate) struct Interface(Vec<[(u32, Corner); 2]>);
 
 impl TetMesh {
-    /// Divides the mesh: `part` tells where a tetrahedron with the given vertices goes. `room` is for how many tetrahedra
-    /// each part needs memory.
+    /// Divides the mesh: `part` tells where a tetrahedron with the given vertices goes. `room` is for how many
+    /// tetrahedra each part needs memory.
     pub(crate) fn split(
         self,
         room: &[usize],
@@ -96,16 +96,34 @@ impl TetMesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::delaunay_by;
-    use crate::predicate::DoublePoints;
+
+    /// Divides a tetrahedron by a vertex inside, the pieces by others, and so on. (Combinatorics only.)
+    fn divided(vertices: u32) -> TetMesh {
+        let mut mesh = TetMesh::new();
+        let seed = [0, 1, 2, 3].map(VertexId);
+        let inner = mesh.add(seed);
+        let [a, b, c, d] = seed;
+        let outer = mesh.add([b, a, c, d]);
+        for (slot, v) in seed.into_iter().enumerate() {
+            mesh.glue(inner.corner(slot), mesh.corner_of(outer, v));
+        }
+        for v in (4..vertices).map(VertexId) {
+            let all: Vec<TetId> = mesh.all().collect();
+            let t = all[v.0 as usize * 7919 % all.len()];
+            let pieces = [0, 1, 2, 3].map(|slot: usize| {
+                let mut piece = mesh.vertices(t);
+                piece[slot] = v;
+                piece
+            });
+            mesh.replace(&[t], &pieces);
+        }
+        mesh
+    }
 
     #[test]
     fn parts_fit_together_again() {
-        let coordinate = |i: u32, k: u32| f64::from((i * i * k + i) % 101);
-        let points = (0..300).map(|i| [coordinate(i, 3), coordinate(i, 7), f64::from(i)]);
-        let points = DoublePoints::new(points.collect());
-        let all: Vec<VertexId> = (0..300).map(VertexId::new).collect();
-        let mesh = delaunay_by(&points, &all, 1).expect("they span space").mesh;
+        let mesh = divided(300);
+        assert_eq!(mesh.check(), Ok(()));
         let expected = mesh.sorted_tets();
         let (parts, interface) = mesh.split(&[0; 3], |v| v[1].0 as usize % 3);
         assert!(!interface.0.is_empty());

@@ -7,8 +7,8 @@
 //! Invariants: `twin(twin(c)) == c`; `c` and `twin(c)` see the same three vertices, in opposite order; a hull facet is
 //! closed by a ghost tetrahedron with one infinite vertex, so that every facet has exactly two tetrahedra.
 //!
-//! Memory: 32 bytes per tetrahedron, that is 16 for the vertices and 16 for the twins, each with its slot in the two low
-//! bits; a mark, for the search of an insertion, is one bit of the first vertex.
+//! Memory: 32 bytes per tetrahedron, that is 16 for the vertices and 16 for the twins, each with its slot in the two
+//! low bits; a mark, for the search of an insertion, is one bit of the first vertex.
 
 use super::{Corner, TetId, VertexId, any_infinite};
 use crate::machine::prefetch;
@@ -35,11 +35,11 @@ pub(super) struct Tet {
     pub(super) twins: [Corner; 4],
 }
 
-/// The bit of the first vertex that is turned over in a marked tetrahedron. In ids below 2^30, and in that of the vertex at
-/// infinity, it equals the next higher bit.
+/// The bit of the first vertex that is turned over in a marked tetrahedron. In ids below 2^30, and in that of the
+/// vertex at infinity, it equals the next higher bit.
 const MARK: u32 = 1 << 30;
 
-/// So many tetrahedra are worth the while of several threads.
+/// Several threads are only worth starting for so many tetrahedra.
 const MANY: usize = 1 << 17;
 
 /// A removed tetrahedron, until its id is used again.
@@ -262,7 +262,8 @@ impl TetMesh {
         self.tets[t.index()].vertices[0].0 ^= MARK;
     }
 
-    /// The vertices of a marked tetrahedron and what lies across the facets opposite to them: one cache line, read once.
+    /// The vertices of a marked tetrahedron and what lies across the facets opposite to them: one cache line, read
+    /// once.
     #[inline]
     pub(crate) fn marked(&self, t: TetId) -> ([VertexId; 4], [Corner; 4]) {
         let Tet { vertices, twins } = self.tets[t.index()];
@@ -339,7 +340,8 @@ impl TetMesh {
     }
 }
 
-/// The slot of `v`, one of the four vertices. Without branches: this is asked in the innermost loops, and cannot be predicted.
+/// The slot of `v`, one of the four vertices. Without branches: this is asked in the innermost loops, and cannot be
+/// predicted.
 #[inline(always)]
 pub(crate) fn slot_of(vertices: &[VertexId; 4], v: VertexId) -> usize {
     debug_assert!(vertices.contains(&v), "v is one of the vertices");

@@ -19,15 +19,16 @@
 //! ≤ (K + ½)(1+u)·u′·m ≤ (K+1)·u′·m as long as (K + ½)u ≤ ½, that is K < 2⁵¹.
 //!
 //! **Product.** v = fl(va·vb), m = fl(fl(ma·mb) + T), k = ka + kb + 1. Let P = ma·mb.
-//! |va·vb − xa·xb| ≤ |va − xa||vb| + |xa||vb − xb| ≤ ka·u′·P + (1 + ka·u′)·kb·u′·P, and rounding adds at most uP + uT, so
-//! |v − x| ≤ u′[(ka + kb + ka·kb·u′ + ½)P + ½T]. On the other side m ≥ ((1−u)P − uT + T)(1−u) ≥ (1−2u)P + (1−2u)T, and
-//! (k)(1−2u) ≥ ka + kb + ka·kb·u′ + ½ for ka, kb ≤ 2²⁰. (I1) by monotone rounding; T only adds.
+//! |va·vb − xa·xb| ≤ |va − xa||vb| + |xa||vb − xb| ≤ ka·u′·P + (1 + ka·u′)·kb·u′·P, and rounding adds at most uP + uT,
+//! so |v − x| ≤ u′[(ka + kb + ka·kb·u′ + ½)P + ½T]. On the other side m ≥ ((1−u)P − uT + T)(1−u) ≥ (1−2u)P + (1−2u)T,
+//! and (k)(1−2u) ≥ ka + kb + ka·kb·u′ + ½ for ka, kb ≤ 2²⁰. (I1) by monotone rounding; T only adds.
 //!
 //! **Overflow.** If any v overflows then so does its m by (I1), and an infinite or NaN m propagates to the end,
 //! where the comparison |v| > bound is false. So the answer is "unknown", never wrong.
 //!
 //! **Sign.** The bound is computed as fl(fl(k·u′·m)(1 + 2⁻⁴⁹)) + T: where k·u′·m ≤ T the last term is enough, and where
-//! it is larger nothing underflows and the factor pays for the roundings. |v| above it implies that x has the sign of v.
+//! it is larger nothing underflows and the factor pays for the roundings. |v| above it implies that x has the sign of
+//! v.
 //!
 //! **Zero.** [`Approx::sign`] never certifies zero. If x is known to be an integer multiple of some quantum q (all
 //! coordinates on a grid), |v| + bound < q does: [`Approx::sign_on_grid`].
@@ -55,8 +56,8 @@ impl Approx {
         f64::from(self.index) * ROUNDING * self.magnitude * (1.0 + 8.0 * ROUNDING) + TINY
     }
 
-    /// x rounded to a double. [`Dyadic::to_f64`] rounds the leading 64 bits to nearest, and so errs by at most
-    /// (2⁻⁵³ + 2⁻⁶³)(1 + 2⁻⁵²)|x| < u′|v| unless the result is subnormal (or overflows): index 1 with the magnitude |v| where
+    /// x rounded to a double. [`Dyadic::to_f64`] rounds the leading 64 bits to nearest, and so errs by at most (2⁻⁵³ +
+    /// 2⁻⁶³)(1 + 2⁻⁵²)|x| < u′|v| unless the result is subnormal (or overflows): index 1 with the magnitude |v| where
     /// this is far from that, and a magnitude that says nothing elsewhere.
     pub(crate) fn rounded(x: &Dyadic) -> Approx {
         let value = x.to_f64();

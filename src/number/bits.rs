@@ -1,7 +1,7 @@
 //! The parts of a double, for all that look inside one.
 
-/// The integer m and the exponent e with |x| = m·2^e, for a finite double: m has 53 bits, fewer if x is subnormal, and is
-/// 0 for zero.
+/// The integer m and the exponent e with |x| = m·2^e, for a finite double: m has 53 bits, fewer if x is subnormal, and
+/// is 0 for zero.
 #[inline(always)]
 pub(crate) fn parts(x: f64) -> (u64, i32) {
     let bits = x.to_bits();

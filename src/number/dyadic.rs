@@ -50,8 +50,8 @@ impl Dyadic {
         quotient.to_f64()
     }
 
-    /// Whether it is negative, the bytes of the odd integer that is its absolute value but for a power of two, the least
-    /// significant first, and the exponent of that power.
+    /// Whether it is negative, the bytes of the odd integer that is its absolute value but for a power of two, the
+    /// least significant first, and the exponent of that power.
     pub(crate) fn parts(&self) -> (bool, Box<[u8]>, i64) {
         let zeros = self.mantissa.trailing_zeros().unwrap_or(0);
         let (sign, magnitude) = self.mantissa.clone().into_parts();

@@ -4,8 +4,8 @@
 use super::Sign;
 use super::bits::parts;
 
-/// An integer of `N` words in two's complement, the lowest first. Sums and differences wrap: it is for the caller to know
-/// that they fit.
+/// An integer of `N` words in two's complement, the lowest first. Sums and differences wrap: it is for the caller to
+/// know that they fit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Integer<const N: usize>([u64; N]);
 

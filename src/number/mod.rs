@@ -1,7 +1,7 @@
 //! Number types: a ring that knows its sign, or admits that it does not.
 //!
-//! Every determinant of the crate is written once ([`crate::predicate::formula`]) and evaluated in numbers of
-//! increasing cost until one of them is sure of the sign:
+//! A polynomial is written once, over any [`Number`] (those of the predicates in [`crate::predicate::formula`]), and
+//! evaluated in numbers of increasing cost until one of them is sure of the sign:
 //!
 //! | type | what it is | its sign |
 //! |---|---|---|

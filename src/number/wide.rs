@@ -71,8 +71,8 @@ fn quotient(n: &Dyadic, d: &Dyadic, bits: u32) -> Option<Dyadic> {
     if d.mantissa == IBig::ZERO {
         return None;
     }
-    // A quotient of at least bits + 2 bits, with one more bit that says whether there is a remainder, rounds as the exact
-    // quotient does.
+    // A quotient of at least bits + 2 bits, with one more bit that says whether there is a remainder, rounds as the
+    // exact quotient does.
     let wanted = d.mantissa.bit_len() + bits as usize + 2;
     let shift = wanted.saturating_sub(n.mantissa.bit_len());
     let (sign_n, magnitude_n) = (n.mantissa.clone() << shift).into_parts();
@@ -137,8 +137,8 @@ impl<const BITS: u32> Float for Wide<BITS> {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Bits(u32);
 
-/// What is to be done with floats whose number of bits is known only at run time. It is compiled once for every width, so
-/// it had better be short.
+/// What is to be done with floats whose number of bits is known only at run time. It is compiled once for every width,
+/// so it had better be short.
 pub trait WidthTask {
     /// The result.
     type Output;

@@ -1,10 +1,11 @@
 //! Exact signs of points given by their coordinates: of input before it is a [`PointStore`](super::PointStore), and of
 //! projections along a coordinate axis, in which doubles stay doubles.
 //!
-//! Each is evaluated in doubles first. For two products of two differences each, l = (p−a)(q−b) and r likewise, with relative
-//! errors below 3·2⁻⁵³ + 3·2⁻¹⁰⁶, the sum or difference errs by less than (2⁻⁵³ + 3·2⁻⁵³ + …)(|l| + |r|), where |l| and |r| are the computed
-//! ones, but for underflow, which loses at most 2⁻¹⁰⁷⁴ (Shewchuk 1997, §4.3, has 3 in place of 4, with a longer argument). If
-//! anything overflows, the bound is infinite or not a number, and no comparison with it is true.
+//! Each is evaluated in doubles first. For two products of two differences each, l = (p−a)(q−b) and r likewise, with
+//! relative errors below 3·2⁻⁵³ + 3·2⁻¹⁰⁶, the sum or difference errs by less than (2⁻⁵³ + 3·2⁻⁵³ + …)(|l| + |r|),
+//! where |l| and |r| are the computed ones, but for underflow, which loses at most 2⁻¹⁰⁷⁴ (Shewchuk 1997, §4.3, has 3
+//! in place of 4, with a longer argument). If anything overflows, the bound is infinite or not a number, and no
+//! comparison with it is true.
 //!
 //! Then come integers of fixed size, as long as the coordinates' bits allow ([`super::integers`]), and dyadic numbers.
 
@@ -99,8 +100,8 @@ pub(crate) fn orient3d(points: [[f64; 3]; 4]) -> Sign {
     orient3d_of_doubles(points)
 }
 
-/// The coordinate in which the normal (b−a) × (c−a) is largest, the first of several, and its sign there; `None` if the points
-/// are on one line.
+/// The coordinate in which the normal (b−a) × (c−a) is largest, the first of several, and its sign there; `None` if the
+/// points are on one line.
 pub(crate) fn normal_axis([a, b, c]: [[f64; 3]; 3]) -> Option<(usize, Sign)> {
     let (u, v): ([f64; 3], [f64; 3]) = (
         std::array::from_fn(|k| b[k] - a[k]),

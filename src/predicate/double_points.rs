@@ -1,23 +1,24 @@
-//! Points with double coordinates, and Steiner points on segments with rounded or exact ones; filtered exact predicates.
+//! Points with double coordinates, and Steiner points on segments with rounded or exact ones; filtered exact
+//! predicates.
 //!
-//! A Steiner point whose exact coordinates are no doubles ([`Steiner::Exact`]) has NaN in their place, so that the first
-//! stage below, which nearly all calls end in, says "don't know" without being asked: models without such points pay
-//! nothing for them. Their predicates go through stage 1 with coordinates that are sums of two doubles, relative to one of the
-//! points, and the rounding of these sums in the error bound, and end in stage 3; all zeros do.
+//! A Steiner point whose exact coordinates are no doubles ([`Steiner::Exact`]) has NaN in their place, so that the
+//! first stage below, which nearly all calls end in, says "don't know" without being asked: models without such points
+//! pay nothing for them. Their predicates go through stage 1 with coordinates that are sums of two doubles, relative to
+//! one of the points, and the rounding of these sums in the error bound, and end in stage 3; all zeros do.
 //!
 //! Each sign goes through stages until one is sure:
 //!
-//! 0. the formula over plain doubles, with an error bound that costs next to nothing. By the proof in [`Approx`] the same
-//!    evaluation has an error of at most k·u′·m, where k = 8 for orient3d (difference 1, product 3, minor 4, product 6, two
-//!    sums 7, 8) and k = 18 for insphere (the same 8 for the five coefficients, sign 9; lift 5; product 9 + 5 + 1 = 15;
-//!    three more sums), and m is the formula over absolute values. With X, Y, Z bounds of the coordinate differences and L
-//!    one of the lifts, m is at most 6·X·Y·Z and 4·6·X·Y·Z·L (up to a factor 1 + 8u for its own rounding, for which the
-//!    constants are rounded up by 1 %). For orient3d X, Y, Z are the extents of the bounding box of all points: one
-//!    constant, and nothing over- or underflows that matters (no extent is above 2^150, and those below 2^−150 are taken
-//!    as that). For insphere L = H, the largest of the four lifts, which come for nothing, and X, Y, Z ≤ √H: the error
-//!    is at most c·H^(5/2), c = 18·24·u′, and det² > c²·H⁵ + 2^−900 is the test without a root. No extent is above 2^99, so
-//!    that nothing overflows; where c²·H⁵ underflows it is below 2^−900; and |det| > 2^−450 is far above what the
-//!    underflow of a product can do, at most 2^−1022 · 2^(4·100+10).
+//! 0. the formula over plain doubles, with an error bound that costs next to nothing. By the proof in [`Approx`] the
+//!    same evaluation has an error of at most k·u′·m, where k = 8 for orient3d (difference 1, product 3, minor 4,
+//!    product 6, two sums 7, 8) and k = 18 for insphere (the same 8 for the five coefficients, sign 9; lift 5; product
+//!    9 + 5 + 1 = 15; three more sums), and m is the formula over absolute values. With X, Y, Z bounds of the
+//!    coordinate differences and L one of the lifts, m is at most 6·X·Y·Z and 4·6·X·Y·Z·L (up to a factor 1 + 8u for
+//!    its own rounding, for which the constants are rounded up by 1 %). For orient3d X, Y, Z are the extents of the
+//!    bounding box of all points: one constant, and nothing over- or underflows that matters (no extent is above 2^150,
+//!    and those below 2^−150 are taken as that). For insphere L = H, the largest of the four lifts, which come for
+//!    nothing, and X, Y, Z ≤ √H: the error is at most c·H^(5/2), c = 18·24·u′, and det² > c²·H⁵ + 2^−900 is the test
+//!    without a root. No extent is above 2^99, so that nothing overflows; where c²·H⁵ underflows it is below 2^−900;
+//!    and |det| > 2^−450 is far above what the underflow of a product can do, at most 2^−1022 · 2^(4·100+10).
 //! 1. to 3. see [`super::stages`].
 //!
 //! The perturbed sign of a zero takes the signs of the circuit's coefficients from the same evaluation.
@@ -25,7 +26,7 @@
 use super::pairs;
 use super::range::Range;
 use super::segment_point::{SegmentPoint, between, rounded_between};
-use super::{PointStore, Steiner, formula};
+use super::{GrowingStore, PointStore, Steiner, formula};
 use crate::mesh::VertexId;
 use crate::number::{Approx, Dyadic, Exact, Number, Parameter, Sign, Vec3};
 
@@ -85,7 +86,7 @@ impl DoublePoints {
     }
 
     /// How many points have coordinates that are no doubles.
-    pub fn no_doubles(&self) -> usize {
+    pub fn count_not_double(&self) -> usize {
         self.segment_points.len()
     }
 
@@ -101,8 +102,8 @@ impl DoublePoints {
         !self.segment_points.is_empty() && v.iter().any(|&v| !self.is_double(v))
     }
 
-    /// The coordinates relative to a double point, with the bound of their rounding: (x − o) + rest, so that the bound is
-    /// relative to the distance from there, not to the coordinates.
+    /// The coordinates relative to a double point, with the bound of their rounding: (x − o) + rest, so that the bound
+    /// is relative to the distance from there, not to the coordinates.
     fn approx(&self, v: VertexId, origin: [f64; 3]) -> Vec3<Approx> {
         let origin = Vec3::from_f64(origin);
         match self.segment_point(v) {
@@ -212,51 +213,6 @@ impl PointStore for DoublePoints {
             .map_or(v.0, |identities| identities[v.index()])
     }
 
-    /// # Panics
-    /// If a coordinate is not finite.
-    fn push(&mut self, p: [f64; 3]) -> VertexId {
-        let before = self.range;
-        for x in p {
-            assert!(x.is_finite(), "coordinates are finite");
-        }
-        if self.range.include(p) {
-            self.earlier.push((self.points.len(), before));
-        }
-        self.push_unchecked(p)
-    }
-
-    fn truncate(&mut self, n: usize) {
-        self.points.truncate(n);
-        while self.segment_points.pop_if(|(i, _)| *i >= n).is_some() {}
-        while let Some((_, range)) = self.earlier.pop_if(|(i, _)| *i >= n) {
-            self.range = range;
-        }
-        if let Some(identities) = &mut self.identities {
-            identities.truncate(n);
-        }
-    }
-
-    /// [`Steiner::Rounded`] rounds each coordinate of p + t(q−p) to a double, so that the point is off the line by about
-    /// half an ulp, or not at all where the result is representable. p and q must have double coordinates.
-    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: Parameter) -> VertexId {
-        let ends = [p, q].map(|v| self.points[v.index()]);
-        if self.steiner == Steiner::Rounded
-            && let Some(doubles) = rounded_between(ends, t)
-        {
-            return self.push(doubles);
-        }
-        let point = match SegmentPoint::new(ends, t) {
-            Err(doubles) => return self.push(doubles),
-            Ok(point) => point,
-        };
-        if self.steiner == Steiner::Rounded {
-            return self.push(point.rounded);
-        }
-        let place = self.segment_points.len() as f64;
-        self.segment_points.push((self.points.len(), point));
-        self.push_unchecked([f64::NAN, f64::NAN, place])
-    }
-
     fn coincide(&self, v: VertexId, w: VertexId) -> bool {
         if self.is_double(v) && self.is_double(w) {
             return self.points[v.index()] == self.points[w.index()];
@@ -321,6 +277,53 @@ impl PointStore for DoublePoints {
     fn insphere(&self, v: [VertexId; 5]) -> Sign {
         self.insphere_fast(v)
             .unwrap_or_else(|| self.insphere_slow::<true>(v))
+    }
+}
+
+impl GrowingStore for DoublePoints {
+    /// # Panics
+    /// If a coordinate is not finite.
+    fn push(&mut self, p: [f64; 3]) -> VertexId {
+        let before = self.range;
+        for x in p {
+            assert!(x.is_finite(), "coordinates are finite");
+        }
+        if self.range.include(p) {
+            self.earlier.push((self.points.len(), before));
+        }
+        self.push_unchecked(p)
+    }
+
+    fn truncate(&mut self, n: usize) {
+        self.points.truncate(n);
+        while self.segment_points.pop_if(|(i, _)| *i >= n).is_some() {}
+        while let Some((_, range)) = self.earlier.pop_if(|(i, _)| *i >= n) {
+            self.range = range;
+        }
+        if let Some(identities) = &mut self.identities {
+            identities.truncate(n);
+        }
+    }
+
+    /// [`Steiner::Rounded`] rounds each coordinate of p + t(q−p) to a double, so that the point is off the line by
+    /// about half an ulp, or not at all where the result is representable. p and q must have double coordinates.
+    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: Parameter) -> VertexId {
+        let ends = [p, q].map(|v| self.points[v.index()]);
+        if self.steiner == Steiner::Rounded
+            && let Some(doubles) = rounded_between(ends, t)
+        {
+            return self.push(doubles);
+        }
+        let point = match SegmentPoint::new(ends, t) {
+            Err(doubles) => return self.push(doubles),
+            Ok(point) => point,
+        };
+        if self.steiner == Steiner::Rounded {
+            return self.push(point.rounded);
+        }
+        let place = self.segment_points.len() as f64;
+        self.segment_points.push((self.points.len(), point));
+        self.push_unchecked([f64::NAN, f64::NAN, place])
     }
 }
 
@@ -427,7 +430,11 @@ mod tests {
 
         /// The same with exact points on segments, also for points of one line or plane.
         #[test]
-        fn exact_steiner_points_agree_with_dyadics(p in family(), q in family(), t in prop::collection::vec(1u32..64, 5)) {
+        fn exact_steiner_points_agree_with_dyadics(
+            p in family(),
+            q in family(),
+            t in prop::collection::vec(1u32..64, 5),
+        ) {
             let mut store = DoublePoints::new([p, q].concat()).with_steiner(Steiner::Exact);
             let end = |i: u32| VertexId(i);
             let mut steiner: Vec<VertexId> = (0..5u32)
@@ -446,9 +453,9 @@ mod tests {
                 prop_assert!(store.collinear([end(0), end(5), v]));
                 prop_assert!(store.orient3d([end(0), end(5), end(1), v]).is_zero());
             }
-            let n = store.no_doubles();
+            let n = store.count_not_double();
             store.truncate(11);
-            prop_assert_eq!(store.no_doubles(), n.min(usize::from(!store.is_double(VertexId(10)))));
+            prop_assert_eq!(store.count_not_double(), n.min(usize::from(!store.is_double(VertexId(10)))));
         }
 
         /// Exchanging two of the five points changes the perturbed sign; it is zero only for five coplanar points.

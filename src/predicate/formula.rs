@@ -1,13 +1,18 @@
-//! Every determinant of the crate, once, over any [`Number`].
+//! The polynomials of the predicates, over any [`Number`].
+//!
+//! Some are written a second time, and compared with these in tests: for speed in doubles, two at a time (`pairs`; the
+//! module `machine` says what that gains), and in integers of fixed size, where each product has just the size that it
+//! needs (`integers`); in the filters of [`crate::verify`] on purpose, so that one mistake does not decide both what is
+//! built and what is accepted.
 //!
 //! # Signs
 //! orient3d(a,b,c,d) = det[b−a, c−a, d−a] is positive for a positive tetrahedron. (Shewchuk's `orient3d`, and the
 //! `robust` crate's, is its negative.)
 //!
 //! # The lifted determinant
-//! Let each of five points p_i have a height h_i (for insphere: h_i = |p_i|²; a weight lowers the height:
-//! h_i = |p_i|² − w_i). With e = p_4 as the origin, the 4×4 determinant with rows (p_i − e, h_i − h_e), i = 0…3, expanded
-//! along its last column, is
+//! Let each of five points p_i have a height h_i (for insphere: h_i = |p_i|²; a weight lowers the height: h_i = |p_i|²
+//! − w_i). With e = p_4 as the origin, the 4×4 determinant with rows (p_i − e, h_i − h_e), i = 0…3, expanded along its
+//! last column, is
 //!
 //! > −h_a·O(e,b,c,d) + h_b·O(e,a,c,d) − h_c·O(e,a,b,d) + h_d·O(e,a,b,c), heights relative to h_e,
 //!
@@ -67,7 +72,8 @@ impl<N: Number> Lifted<N> {
         &self.volume
     }
 
-    /// The volumes of the tetrahedron with w in place of x, of y, of z, from w − v: V times the barycentric coordinates of w.
+    /// The volumes of the tetrahedron with w in place of x, of y, of z, from w − v: V times the barycentric coordinates
+    /// of w.
     #[inline(always)]
     pub fn with_in_place(&self, w: &Vec3<N>) -> [N; 3] {
         let [x, y, z] = &self.crosses;

@@ -3,29 +3,41 @@
 
 use super::{PointStore, formula};
 use crate::mesh::VertexId;
-use crate::number::{Number, Parameter, Sign, Vec3};
+use crate::number::{Number, Sign, Vec3};
 
 /// The points of a store, seen through a number type N: every sign is that of the formula evaluated in N, and may be
-/// wrong. A sign that N does not know (NaN) is given as zero, and so is that of points one of which is repeated. No weight
-/// is perturbed: five points that seem cospherical are.
+/// wrong. A sign that N does not know (NaN) is given as zero, and so is that of points one of which is repeated. No
+/// weight is perturbed: five points that seem cospherical are.
 ///
 /// N is not part of the type, so that what works on a view is not compiled anew for every N.
-///
-/// A view does not grow: [`PointStore::push`] and the other methods that change a store must not be called.
 #[derive(Debug)]
 pub struct NaivePoints<'a, P> {
-    points: &'a P,
+    points: Source<'a, P>,
     orient3d: fn(&P, [VertexId; 4]) -> Sign,
     insphere: fn(&P, [VertexId; 5]) -> Sign,
+}
+
+/// The points behind a view: a store's, or a copy of them in another order.
+#[derive(Debug)]
+enum Source<'a, P> {
+    Store(&'a P),
+    Own(P),
 }
 
 impl<'a, P: PointStore> NaivePoints<'a, P> {
     /// The view of a store through `N`.
     pub fn new<N: Number>(points: &'a P) -> Self {
         NaivePoints {
-            points,
+            points: Source::Store(points),
             orient3d: |points, v| sign::<P, N, 4>(points, v, formula::orient3d),
             insphere: |points, v| sign::<P, N, 5>(points, v, formula::insphere),
+        }
+    }
+
+    fn points(&self) -> &P {
+        match &self.points {
+            Source::Store(points) => points,
+            Source::Own(points) => points,
         }
     }
 }
@@ -42,51 +54,40 @@ fn sign<P: PointStore, N: Number, const K: usize>(
     formula(p.each_ref()).sign().unwrap_or(Sign::Zero)
 }
 
-const FIXED: &str = "a view of points does not change";
-
 impl<P: PointStore> PointStore for NaivePoints<'_, P> {
     fn len(&self) -> usize {
-        self.points.len()
+        self.points().len()
     }
 
     fn rounded(&self, v: VertexId) -> [f64; 3] {
-        self.points.rounded(v)
+        self.points().rounded(v)
     }
 
     fn coordinates<M: Number>(&self, v: VertexId) -> Vec3<M> {
-        self.points.coordinates(v)
+        self.points().coordinates(v)
     }
 
     fn identity(&self, v: VertexId) -> u32 {
-        self.points.identity(v)
+        self.points().identity(v)
     }
 
     fn orient3d(&self, v: [VertexId; 4]) -> Sign {
-        (self.orient3d)(self.points, v)
+        (self.orient3d)(self.points(), v)
     }
 
     fn insphere_unperturbed(&self, v: [VertexId; 5]) -> Sign {
-        (self.insphere)(self.points, v)
+        (self.insphere)(self.points(), v)
     }
 
     fn insphere(&self, v: [VertexId; 5]) -> Sign {
         self.insphere_unperturbed(v)
     }
 
-    fn reordered(&self, _: &[VertexId]) -> Self {
-        unreachable!("{FIXED}")
-    }
-
-    fn push(&mut self, _: [f64; 3]) -> VertexId {
-        unreachable!("{FIXED}")
-    }
-
-    fn truncate(&mut self, _: usize) {
-        unreachable!("{FIXED}")
-    }
-
-    fn push_on_segment(&mut self, _: VertexId, _: VertexId, _: Parameter) -> VertexId {
-        unreachable!("{FIXED}")
+    fn reordered(&self, order: &[VertexId]) -> Self {
+        NaivePoints {
+            points: Source::Own(self.points().reordered(order)),
+            ..*self
+        }
     }
 }
 
@@ -111,6 +112,24 @@ mod tests {
         assert_eq!(points.orient3d(v), Sign::Positive);
         assert_eq!(NaivePoints::new::<f64>(&points).orient3d(v), Sign::Positive);
         assert_eq!(NaivePoints::new::<Wide<8>>(&points).orient3d(v), Sign::Zero);
+    }
+
+    #[test]
+    fn a_view_in_another_order_sees_the_same() {
+        let p = [
+            [0.0, 0.0, 1.0],
+            [1.0, 0.0, 1.0],
+            [0.0, 1.0, 1.0],
+            [0.0, 0.0, 1.001],
+        ];
+        let points = DoublePoints::new(p.to_vec());
+        let order = [1, 0, 2, 3].map(VertexId);
+        let v = [0, 1, 2, 3].map(VertexId);
+        let view = NaivePoints::new::<f64>(&points).reordered(&order);
+        assert_eq!(view.orient3d(v), Sign::Negative);
+        assert_eq!(view.identity(VertexId(0)), 1);
+        let view = NaivePoints::new::<Wide<8>>(&points).reordered(&order);
+        assert_eq!(view.orient3d(v), Sign::Zero);
     }
 
     #[test]

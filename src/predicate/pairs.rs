@@ -1,8 +1,9 @@
-//! Determinants in doubles, two at a time: the polynomials of [`super::formula`], and their depth: a difference, a product,
-//! a minor, a product, two sums; for insphere times the lift, and two sums more. So the error bounds are the same.
+//! Determinants in doubles, two at a time: the polynomials of [`super::formula`], and their depth: a difference, a
+//! product, a minor, a product, two sums; for insphere times the lift, and two sums more. So the error bounds are the
+//! same.
 //!
-//! With e as the origin, the minors ab, bc, cd, da, ac, bd (ij = x_i·y_j − x_j·y_i) and heights z, the orientations of e with
-//! three others are
+//! With e as the origin, the minors ab, bc, cd, da, ac, bd (ij = x_i·y_j − x_j·y_i) and heights z, the orientations of
+//! e with three others are
 //!
 //! > abc = z_a·bc − z_b·ac + z_c·ab,  bcd = z_b·cd − z_c·bd + z_d·bc,
 //! > cda = z_c·da + z_d·ac + z_a·cd,  dab = z_d·ab + z_a·bd + z_b·da,
@@ -137,7 +138,8 @@ impl Circuit {
         ]
     }
 
-    /// Which of the coefficients of b, c, d are less than −`bound` for certain, as bits, and which are greater than `bound`.
+    /// Which of the coefficients of b, c, d are less than −`bound` for certain, as bits, and which are greater than
+    /// `bound`.
     #[inline(always)]
     pub(crate) fn signs(&self, bound: f64) -> [u8; 2] {
         let bounds = Pair::new(bound, bound);

@@ -1,5 +1,5 @@
-//! Points on segments with exact coordinates p + t(q−p), where p, q and t are doubles: dyadic numbers, hence exactly on the
-//! segment, and on every plane that holds it.
+//! Points on segments with exact coordinates p + t(q−p), where p, q and t are doubles: dyadic numbers, hence exactly on
+//! the segment, and on every plane that holds it.
 
 use crate::number::{Approx, Dyadic, Number, Parameter, Vec3};
 
@@ -49,11 +49,11 @@ pub(super) fn rounded_between([p, q]: [[f64; 3]; 2], t: Parameter) -> Option<[f6
     Some([coordinate(0)?, coordinate(1)?, coordinate(2)?])
 }
 
-/// One coordinate. Difference, product and sum are taken without error, as sums of two doubles (Dekker 1971), but for terms
-/// that are as small as the rounding errors of the others; of these the sum is h + l, up to less than 4u times their sum.
-/// Twice that, added to l, outweighs the rounding of this addition; if h stays the same then, whatever the sign of the error,
-/// h is the double nearest to the exact value. What is nearly half-way between two doubles is left to [`Dyadic`], which cuts
-/// off what is beyond 64 bits before it rounds: hence the last term of the error.
+/// One coordinate. Difference, product and sum are taken without error, as sums of two doubles (Dekker 1971), but for
+/// terms that are as small as the rounding errors of the others; of these the sum is h + l, up to less than 4u times
+/// their sum. Twice that, added to l, outweighs the rounding of this addition; if h stays the same then, whatever the
+/// sign of the error, h is the double nearest to the exact value. What is nearly half-way between two doubles is left
+/// to [`Dyadic`], which cuts off what is beyond 64 bits before it rounds: hence the last term of the error.
 #[inline]
 fn rounded_coordinate(p: f64, q: f64, t: f64) -> Option<f64> {
     if p == q {
@@ -140,7 +140,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Ordinary coordinates, short ones, whose results are doubles or half-way between two, and such of different sizes.
+    /// Ordinary coordinates, short ones, whose results are doubles or half-way between two, and some of very
+    /// different sizes.
     fn coordinate() -> impl Strategy<Value = f64> {
         prop_oneof![
             -10.0..10.0f64,

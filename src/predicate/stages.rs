@@ -1,9 +1,10 @@
 //! The later stages of the predicates of [`DoublePoints`], for the few signs that the first one leaves open:
 //!
-//! 1. the same value as in stage 0 with the largest differences X, Y, Z of these points and L = 3·max(X,Y,Z)², where all are in
-//!    [2^−150, 2^150]. And where this bound of m is below 2^53·2^(g·degree), all coordinates being multiples of 2^g, then
-//!    all intermediate results are integer multiples of powers of 2^g that fit 53 bits: the value is exact, zero or not.
-//!    (If X, Y or Z is zero then so is the value, unless another difference is so large that it is NaN.)
+//! 1. the same value as in stage 0 with the largest differences X, Y, Z of these points and L = 3·max(X,Y,Z)², where
+//!    all are in [2^−150, 2^150]. And where this bound of m is below 2^53·2^(g·degree), all coordinates being multiples
+//!    of 2^g, then all intermediate results are integer multiples of powers of 2^g that fit 53 bits: the value is
+//!    exact, zero or not. (If X, Y or Z is zero then so is the value, unless another difference is so large that it is
+//!    NaN.)
 //! 2. integers of fixed size ([`super::integers`]), as long as the coordinates' bits allow;
 //! 3. the formula over [`Dyadic`](crate::number::Dyadic), for every finite double.
 

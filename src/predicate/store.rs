@@ -1,13 +1,14 @@
-//! Where the algorithms get their signs.
+//! Where the algorithms get their signs: a list of points that can be asked, and one that also grows.
 
 use super::{coordinates, formula, perturbed_sign};
 use crate::mesh::VertexId;
-use crate::number::{Dyadic, Exact, Number, Parameter, Sign, Vec3};
+use crate::number::{Dyadic, Exact, Number, Parameter, Polynomial, Sign, Vec3, decide};
 
-/// A growing list of points that answers geometric questions exactly.
+/// A list of points that answers geometric questions.
 ///
 /// The default bodies evaluate the formulas over [`Dyadic`]; an implementation overrides them with filtered versions
-/// that return the same signs sooner.
+/// that return the same signs sooner. ([`NaivePoints`](super::NaivePoints) are the exception: their signs are rounded,
+/// for experiments.)
 pub trait PointStore: Sync {
     /// The number of points.
     fn len(&self) -> usize;
@@ -29,16 +30,7 @@ pub trait PointStore: Sync {
         None
     }
 
-    /// Adds a point with double coordinates.
-    fn push(&mut self, p: [f64; 3]) -> VertexId;
-
-    /// Removes all points from index `n` on.
-    fn truncate(&mut self, n: usize);
-
-    /// Adds the point p + t(q−p), 0 < t < 1, as exactly as the store's coordinates allow.
-    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: Parameter) -> VertexId;
-
-    /// A store of the given points in the given order, which gives each the identity it has here. For locality: an
+    /// A list of the given points in the given order, which gives each the identity it has here. For locality: an
     /// algorithm that visits vertices in this order finds neighbours close together in memory.
     fn reordered(&self, order: &[VertexId]) -> Self
     where
@@ -65,6 +57,19 @@ pub trait PointStore: Sync {
             let mut moved = v;
             moved[slot] = p;
             self.orient3d(moved).is_negative()
+        })
+    }
+
+    /// Where a point of any double coordinates, which need not be in the list, lies with respect to the tetrahedron v:
+    /// the sign of orient3d with it in place of each vertex. For a positive v all are positive iff it is inside.
+    fn sides_of(&self, v: [VertexId; 4], p: [f64; 3]) -> [Sign; 4] {
+        [0, 1, 2, 3].map(|slot| {
+            decide(&Moved {
+                points: self,
+                v,
+                slot,
+                p,
+            })
         })
     }
 
@@ -103,5 +108,33 @@ pub trait PointStore: Sync {
         let [a, b, c] = v.map(|v| self.coordinates::<Dyadic>(v));
         let normal = b.sub(&a).cross(&c.sub(&a));
         normal.0.iter().all(|x| x.exact_sign().is_zero())
+    }
+}
+
+/// A list of points that grows.
+pub trait GrowingStore: PointStore {
+    /// Adds a point with finite double coordinates.
+    fn push(&mut self, p: [f64; 3]) -> VertexId;
+
+    /// Removes all points from index `n` on.
+    fn truncate(&mut self, n: usize);
+
+    /// Adds the point p + t(q−p), 0 < t < 1, as exactly as the store's coordinates allow.
+    fn push_on_segment(&mut self, p: VertexId, q: VertexId, t: Parameter) -> VertexId;
+}
+
+/// orient3d of the tetrahedron v with p in place of one vertex.
+struct Moved<'a, P: ?Sized> {
+    points: &'a P,
+    v: [VertexId; 4],
+    slot: usize,
+    p: [f64; 3],
+}
+
+impl<P: PointStore + ?Sized> Polynomial for Moved<'_, P> {
+    fn value<N: Number>(&self) -> N {
+        let mut corners = self.v.map(|v| self.points.coordinates::<N>(v));
+        corners[self.slot] = Vec3::from_f64(self.p);
+        formula::orient3d(corners.each_ref())
     }
 }

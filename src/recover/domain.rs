@@ -27,7 +27,7 @@ pub struct DomainMarks {
 /// If a hole point or region point lies on a facet, or two region points disagree on one region.
 pub(crate) fn mark_domain<P: PointStore>(
     plc: &Plc,
-    points: &mut P,
+    points: &P,
     mesh: &TetMesh,
     walls: &SimplexIndex<2>,
     keep_hull: bool,
@@ -136,36 +136,26 @@ const MOST_STEPS: usize = 1000;
 /// constrained tetrahedralization. If it does not, or if the point is in no interior, a walk from the first tetrahedron, then
 /// a search of all.
 fn locate<P: PointStore>(
-    points: &mut P,
+    points: &P,
     mesh: &TetMesh,
     walls: &SimplexIndex<2>,
     near: &mut Option<TetId>,
     point: [f64; 3],
 ) -> Result<Option<TetId>, OnPolygon> {
-    let n = points.len();
-    let p = points.push(point);
-    let sides = |t: TetId| {
-        let v = mesh.vertices(t);
-        [0, 1, 2, 3].map(|slot: usize| {
-            let mut moved = v;
-            moved[slot] = p;
-            points.orient3d(moved)
-        })
-    };
+    let sides = |t: TetId| points.sides_of(mesh.vertices(t), point);
+    let outward = |t: TetId| sides(t).iter().position(|s| s.is_negative());
     let mut at = *near;
     for _ in 0..MOST_STEPS {
         let Some(t) = at else { break };
-        if let Some(slot) = points.facet_towards(mesh.vertices(t), p) {
+        if let Some(slot) = outward(t) {
             at = Some(mesh.neighbor(t.corner(slot))).filter(|&n| !mesh.is_ghost(n));
         } else if sides(t).iter().all(|s| s.is_positive()) {
             *near = at;
-            points.truncate(n);
             return Ok(at);
         } else {
             break;
         }
     }
-    let outward = |t: TetId| sides(t).iter().position(|s| s.is_negative());
     let mut found = None;
     let mut at = mesh.finite().next();
     for _ in 0..MOST_STEPS {
@@ -183,7 +173,6 @@ fn locate<P: PointStore>(
         let on_facet = sides(t).map(|s| s.is_zero());
         (0..4).any(|slot| on_facet[slot] && walls.triangle(mesh.facet(t.corner(slot))).is_some())
     });
-    points.truncate(n);
     if on_polygon {
         Err(OnPolygon)
     } else {

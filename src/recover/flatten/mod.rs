@@ -34,7 +34,7 @@ pub(crate) use plane::Plane;
 use crate::delaunay::Delaunay;
 use crate::mesh::{Groups, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
-use crate::predicate::PointStore;
+use crate::predicate::{GrowingStore, PointStore};
 use crate::recover::segments::{Request, SegmentIndex, Subsegments, add_steiner_points};
 use cut::Cut;
 use figure::Figure;
@@ -100,7 +100,7 @@ impl PolygonsAt {
 
 /// Cuts all polygons that are not flat, inserting Steiner points where that is impossible. If it would take too many of
 /// those, none is inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]).
-pub fn flatten<P: PointStore>(
+pub fn flatten<P: GrowingStore>(
     complex: &Arc<Complex>,
     index: &SegmentIndex,
     points: &mut P,

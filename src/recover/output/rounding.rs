@@ -28,7 +28,7 @@ pub fn round(points: &DoublePoints, tets: &[[VertexId; 4]]) -> Rounding {
     let coordinates: Vec<[f64; 3]> = (0..points.len())
         .map(|v| points.rounded(VertexId::new(v)))
         .collect();
-    if points.no_doubles() == 0 {
+    if points.count_not_double() == 0 {
         return Rounding {
             coordinates,
             ..Rounding::default()
@@ -146,7 +146,7 @@ fn neighbours(p: [f64; 3]) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicate::Steiner;
+    use crate::predicate::{GrowingStore, Steiner};
 
     /// A flat tetrahedron, one vertex of which is a third of the way along an edge that rises by a few ulps.
     #[test]

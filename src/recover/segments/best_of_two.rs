@@ -15,7 +15,7 @@
 use super::recovery::{MOST_VERTICES_PER_SEGMENT, Placement, Recovered, SegmentRecovery};
 use crate::error::{Failure, GaveUp};
 use crate::mesh::VertexId;
-use crate::predicate::PointStore;
+use crate::predicate::GrowingStore;
 
 /// The lengths of the subsegments down to which both recoveries come in turns: each is this part of the one before.
 const STEP: f64 = 0.95;
@@ -27,7 +27,7 @@ const NOISE: usize = 16;
 ///
 /// # Errors
 /// Those of the recovery by the rules.
-pub(super) fn recover_thriftily<P: PointStore + Clone>(
+pub(super) fn recover_thriftily<P: GrowingStore + Clone>(
     points: &mut P,
     start: Recovered,
     missing: &[[VertexId; 2]],
@@ -50,7 +50,7 @@ struct Race<'a, P> {
     harmless: SegmentRecovery<'a, P>,
 }
 
-impl<P: PointStore> Race<'_, P> {
+impl<P: GrowingStore> Race<'_, P> {
     /// Which one is better; that one is then complete.
     fn run(&mut self) -> Result<Placement, Failure> {
         let mut waits = false;
@@ -128,7 +128,7 @@ mod tests {
     use crate::exchange::Segment;
     use crate::mesh::Incidence;
     use crate::plc::Complex;
-    use crate::predicate::DoublePoints;
+    use crate::predicate::{DoublePoints, PointStore};
     use crate::recover::segments::{SegmentIndex, Subsegments};
 
     /// Layers of parallel rods, those of each across those of the one below.

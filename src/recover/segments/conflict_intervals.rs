@@ -294,7 +294,7 @@ fn negative(s: f64, l: f64, c: f64) -> Span {
 mod tests {
     use super::*;
     use crate::delaunay::delaunay;
-    use crate::predicate::DoublePoints;
+    use crate::predicate::{DoublePoints, GrowingStore};
 
     /// The tetrahedra whose intervals contain u are the conflict zone of the point there.
     #[test]

@@ -72,7 +72,7 @@ pub(super) fn inner_edges<S: Copy>(
 mod tests {
     use super::*;
     use crate::delaunay::delaunay;
-    use crate::predicate::{DoublePoints, PointStore};
+    use crate::predicate::{DoublePoints, GrowingStore};
     use rustc_hash::FxHashSet;
 
     /// The edges inside a conflict zone are those that are gone after the insertion.

@@ -14,7 +14,7 @@ use super::conflict_intervals::Span;
 use super::recovery::SegmentRecovery;
 use super::split::{Subsegment, fewest_bits};
 use crate::mesh::{TetId, VertexId};
-use crate::predicate::PointStore;
+use crate::predicate::GrowingStore;
 
 /// No place is nearer to an end than this part of the subsegment.
 const MARGIN: f64 = 0.005;
@@ -25,7 +25,7 @@ const SLACK: f64 = 0.25;
 /// If the circumspheres of so many tetrahedra reach a subsegment, the rules prevail.
 const MOST_TETS: usize = 1000;
 
-impl<P: PointStore> SegmentRecovery<'_, P> {
+impl<P: GrowingStore> SegmentRecovery<'_, P> {
     /// The parameter of the best place on the subsegment ab, in the direction of its segment, if it is better than t, which
     /// the rules say.
     /// `crossed` are the tetrahedra that the subsegment crosses.

@@ -33,7 +33,7 @@ use crate::delaunay::Delaunay;
 use crate::error::Failure;
 use crate::mesh::{Incidence, VertexId};
 use crate::plc::Complex;
-use crate::predicate::PointStore;
+use crate::predicate::GrowingStore;
 use best_of_two::recover_thriftily;
 pub use recovery::Changes;
 use recovery::{Placement, Recovered, SegmentRecovery};
@@ -47,7 +47,7 @@ pub use subsegments::Subsegments;
 /// # Errors
 /// [`InvalidPlc`](crate::error::InvalidPlc) where a vertex lies on a segment; [`SegmentTooShort`](crate::error::GaveUp::SegmentTooShort) where a segment cannot be divided any
 /// more in the store's coordinates, as happens where segments or facets intersect. The tetrahedralization may then be gone.
-pub fn recover_segments<P: PointStore + Clone>(
+pub fn recover_segments<P: GrowingStore + Clone>(
     complex: &Complex,
     points: &mut P,
     delaunay: &mut Delaunay,
@@ -99,7 +99,7 @@ pub struct Added {
 ///
 /// # Errors
 /// The same as [`recover_segments`].
-pub fn add_steiner_points<P: PointStore>(
+pub fn add_steiner_points<P: GrowingStore>(
     requests: &[Request],
     points: &mut P,
     delaunay: &mut Delaunay,

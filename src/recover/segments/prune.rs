@@ -12,13 +12,13 @@ use super::obstruction::is_obstructed;
 use super::recovery::Recovered;
 use crate::delaunay::filling;
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
-use crate::predicate::PointStore;
+use crate::predicate::{GrowingStore, PointStore};
 use crate::recover::tables::Stamps;
 
 impl Recovered {
     /// Without the Steiner points that are not needed. The others keep their order, and with it the perturbation, but
     /// are numbered anew.
-    pub(super) fn pruned<P: PointStore>(mut self, points: &mut P) -> Recovered {
+    pub(super) fn pruned<P: GrowingStore>(mut self, points: &mut P) -> Recovered {
         let first = self.subsegments.first_steiner();
         let count = self.subsegments.steiner_count();
         let mut gone = vec![false; count];
@@ -99,7 +99,7 @@ impl Recovered {
         Some(neighbours)
     }
 
-    fn renumber<P: PointStore>(&mut self, points: &mut P, gone: &[bool]) {
+    fn renumber<P: GrowingStore>(&mut self, points: &mut P, gone: &[bool]) {
         let first = self.subsegments.first_steiner();
         let ids = self.subsegments.compact(gone);
         points.truncate(first);

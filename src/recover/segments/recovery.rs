@@ -16,7 +16,7 @@ use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp};
 use crate::mesh::{Incidence, TetId, VertexId};
 use crate::number::Parameter;
-use crate::predicate::PointStore;
+use crate::predicate::GrowingStore;
 use crate::recover::tables::Stamps;
 use rustc_hash::FxHashSet;
 use std::collections::BinaryHeap;
@@ -92,7 +92,7 @@ pub(super) struct SegmentRecovery<'a, P> {
     pub(super) changes: Option<Changes>,
 }
 
-impl<'a, P: PointStore> SegmentRecovery<'a, P> {
+impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
     pub(super) fn new(
         points: &'a mut P,
         start: Recovered,

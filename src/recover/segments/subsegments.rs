@@ -8,7 +8,7 @@ use super::segment_index::{SegmentIndex, key};
 use crate::mesh::VertexId;
 use crate::number::Parameter;
 use crate::plc::{Complex, Polygon};
-use crate::predicate::PointStore;
+use crate::predicate::{GrowingStore, PointStore};
 
 const ON_SEGMENT: &str = "this Steiner point is on a segment";
 
@@ -248,7 +248,7 @@ impl Subsegments {
     }
 
     /// Adds the Steiner points, all of which are on segments, to a store that has the other vertices only.
-    pub(super) fn push_all<P: PointStore>(&self, points: &mut P) {
+    pub(super) fn push_all<P: GrowingStore>(&self, points: &mut P) {
         for place in &self.places {
             let (s, t) = place.expect(ON_SEGMENT);
             let [p, q] = self.ends(s);

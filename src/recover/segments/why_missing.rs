@@ -5,9 +5,9 @@ use super::recovery::SegmentRecovery;
 use crate::error::{Failure, GaveUp, InvalidPlc};
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Exact, Vec3};
-use crate::predicate::PointStore;
+use crate::predicate::{GrowingStore, PointStore};
 
-impl<P: PointStore> SegmentRecovery<'_, P> {
+impl<P: GrowingStore> SegmentRecovery<'_, P> {
     /// Why segment s cannot be recovered, on which the vertex v lies.
     pub(super) fn vertex_on_segment(&self, s: u32, v: VertexId) -> Failure {
         let segment = self.subsegments.ends(s);
