@@ -12,6 +12,7 @@
 mod build;
 mod insert;
 mod large;
+mod local;
 mod of_points;
 mod order;
 mod parallel;
@@ -20,6 +21,6 @@ mod star;
 
 pub use build::{DelaunayError, delaunay, delaunay_by};
 pub use insert::Delaunay;
+pub(crate) use local::is_locally_delaunay;
 pub use of_points::{PointsDelaunay, delaunay_of_points};
-pub use order::insertion_order;
-pub use removal::filling;
+pub(crate) use removal::filling;

@@ -15,11 +15,6 @@ const BITS: u32 = 21;
 /// So many vertices are sorted by all threads.
 const MANY: usize = 1 << 15;
 
-/// The given vertices in the order in which to insert them. O(n log n), deterministic.
-pub fn insertion_order<P: PointStore>(points: &P, vertices: &[VertexId]) -> Vec<VertexId> {
-    Rounds::new(points, vertices).order()
-}
-
 /// The rounds of an order of insertion.
 pub(super) struct Rounds {
     /// The members of each with their places on the curve, in ascending order.
@@ -215,7 +210,7 @@ mod tests {
             .collect();
         let points = DoublePoints::new(points);
         let all: Vec<VertexId> = (0..5000).map(VertexId::new).collect();
-        let mut order = insertion_order(&points, &all);
+        let mut order = Rounds::new(&points, &all).order();
         order.sort_unstable();
         assert_eq!(order, all);
     }

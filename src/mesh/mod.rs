@@ -1,15 +1,18 @@
 //! The tetrahedral mesh: topology alone. Nothing here knows a coordinate or a number type.
 
 mod canonical;
+mod check;
 mod flip;
 mod ids;
 mod incidence;
 mod least;
+mod marks;
 mod parts;
 mod replace;
 mod topology;
 
 pub(crate) use canonical::{canonical_face, canonical_tet};
+pub use check::TopologyError;
 pub(crate) use flip::behind;
 pub(crate) use ids::any_infinite;
 pub use ids::{Corner, TetId, VertexId};
@@ -17,7 +20,7 @@ pub use incidence::Incidence;
 pub(crate) use least::{Groups, SimplexIndex, sort_by_least};
 pub(crate) use parts::{WALL, is_wall};
 pub(crate) use topology::slot_of;
-pub use topology::{FACET, NEXT, TetMesh, TopologyError};
+pub use topology::{FACET, NEXT, TetMesh};
 
 #[cfg(test)]
 impl TetMesh {

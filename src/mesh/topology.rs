@@ -35,32 +35,11 @@ pub(super) struct Tet {
     pub(super) twins: [Corner; 4],
 }
 
-/// The bit of the first vertex that is turned over in a marked tetrahedron. In ids below 2^30, and in that of the
-/// vertex at infinity, it equals the next higher bit.
-const MARK: u32 = 1 << 30;
-
 /// Several threads are only worth starting for so many tetrahedra.
 const MANY: usize = 1 << 17;
 
 /// A removed tetrahedron, until its id is used again.
 pub(super) const DEAD: [VertexId; 4] = [VertexId::INFINITE; 4];
-
-/// A violated invariant of [`TetMesh`].
-#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum TopologyError {
-    /// A facet is not glued to anything.
-    #[error("facet {0:?} is not glued")]
-    Open(Corner),
-    /// twin(twin(c)) is not c.
-    #[error("facet {0:?} is not the twin of its twin")]
-    OneSided(Corner),
-    /// A corner and its twin see different vertices, or the same in the same order.
-    #[error("facet {0:?} and its twin see different vertices")]
-    Mismatch(Corner),
-    /// A tetrahedron uses a vertex twice.
-    #[error("tetrahedron {0:?} uses a vertex twice")]
-    Repeated(TetId),
-}
 
 impl TetMesh {
     /// An empty mesh.
@@ -247,30 +226,6 @@ impl TetMesh {
         self.tets[d.tet().index()].twins[d.slot()] = c;
     }
 
-    /// Whether `t` is marked; and its vertices, which are those of a tetrahedron only if it is not.
-    #[inline]
-    pub(crate) fn unless_marked(&self, t: TetId) -> (bool, [VertexId; 4]) {
-        let vertices = self.tets[t.index()].vertices;
-        let VertexId(first) = vertices[0];
-        ((first ^ (first >> 1)) & MARK != 0, vertices)
-    }
-
-    /// Marks `t`, or takes its mark away. A marked tetrahedron must not be looked at but by [`TetMesh::unless_marked`]
-    /// and [`TetMesh::marked`].
-    #[inline]
-    pub(crate) fn toggle_mark(&mut self, t: TetId) {
-        self.tets[t.index()].vertices[0].0 ^= MARK;
-    }
-
-    /// The vertices of a marked tetrahedron and what lies across the facets opposite to them: one cache line, read
-    /// once.
-    #[inline]
-    pub(crate) fn marked(&self, t: TetId) -> ([VertexId; 4], [Corner; 4]) {
-        let Tet { vertices, twins } = self.tets[t.index()];
-        let [VertexId(first), b, c, d] = vertices;
-        ([VertexId(first ^ MARK), b, c, d], twins)
-    }
-
     /// Lets the processor fetch the neighbours of `t`, which will be looked at soon.
     #[inline]
     pub(crate) fn prefetch_neighbors(&self, t: TetId) {
@@ -307,36 +262,6 @@ impl TetMesh {
         for (slot, c) in across.into_iter().enumerate() {
             self.tets[c.tet().index()].twins[c.slot()] = t.corner(slot);
         }
-    }
-
-    /// Checks the module's invariants. Linear time.
-    ///
-    /// # Errors
-    /// The first violation, in order of id.
-    pub fn check(&self) -> Result<(), TopologyError> {
-        for t in self.all() {
-            let mut v = self.vertices(t);
-            v.sort_unstable();
-            if v.windows(2).any(|w| w[0] == w[1]) {
-                return Err(TopologyError::Repeated(t));
-            }
-            for slot in 0..4 {
-                let c = t.corner(slot);
-                let d = self.twin(c);
-                if d == Corner::NONE || !self.is_alive(d.tet()) {
-                    return Err(TopologyError::Open(c));
-                }
-                if self.twin(d) != c {
-                    return Err(TopologyError::OneSided(c));
-                }
-                let [p, q, r] = self.facet(c);
-                let seen = self.facet(d);
-                if ![[q, p, r], [p, r, q], [r, q, p]].contains(&seen) {
-                    return Err(TopologyError::Mismatch(c));
-                }
-            }
-        }
-        Ok(())
     }
 }
 

@@ -9,7 +9,7 @@
 //! | [`Wide`] | a float of any number of mantissa bits, for the experiments | always answers, and may lie |
 //! | [`Approx`] | `f64` with a running error bound, the filter | true or unknown |
 //! | [`Dyadic`] | m·2^e, the ring that doubles generate | exact |
-//! | [`Integer`] | integers of fixed size, for coordinates on a grid | exact |
+//! | `Integer` | integers of fixed size, for coordinates on a grid | exact |
 //! | `num_rational::BigRational` | rationals, for comparison and tests | exact |
 //! | `rug::Rational` | GMP rationals (feature `rug`) | exact |
 //!
@@ -31,7 +31,7 @@ pub use approx::Approx;
 pub(crate) use decide::{Polynomial, decide};
 pub use dyadic::Dyadic;
 pub use float::Float;
-pub use integer::Integer;
+pub(crate) use integer::Integer;
 pub use parameter::Parameter;
 pub use sign::Sign;
 pub use vector::Vec3;

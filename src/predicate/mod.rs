@@ -1,7 +1,7 @@
 //! Geometric predicates: one formula per determinant, filtered and exact evaluation, symbolic perturbation.
 //!
 //! The algorithms ask a [`PointStore`] for signs: [`DoublePoints`], whose signs are exact, or a view of them whose
-//! signs are rounded ([`NaivePoints`], for experiments). Only what makes Steiner points needs a [`GrowingStore`].
+//! signs are rounded (`NaivePoints`, for experiments). Only what makes Steiner points needs a [`GrowingStore`].
 
 pub(crate) mod coordinates;
 mod double_points;
@@ -17,6 +17,6 @@ mod store;
 
 pub use double_points::DoublePoints;
 pub use naive::NaivePoints;
-pub use perturbation::perturbed_sign;
+use perturbation::perturbed_sign;
 pub use segment_point::Steiner;
 pub use store::{GrowingStore, PointStore};

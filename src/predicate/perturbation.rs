@@ -14,7 +14,7 @@ use crate::number::Sign;
 /// The sign of insphere(a,b,c,d,e) for five cospherical points under the perturbation; zero only if all five are
 /// coplanar.
 #[cold]
-pub fn perturbed_sign<P: PointStore + ?Sized>(points: &P, v: [VertexId; 5]) -> Sign {
+pub(super) fn perturbed_sign<P: PointStore + ?Sized>(points: &P, v: [VertexId; 5]) -> Sign {
     let mut order = [0, 1, 2, 3, 4];
     order.sort_unstable_by_key(|&i: &usize| points.identity(v[i]));
     order

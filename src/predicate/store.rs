@@ -7,7 +7,7 @@ use crate::number::{Dyadic, Exact, Number, Parameter, Polynomial, Sign, Vec3, de
 /// A list of points that answers geometric questions.
 ///
 /// The default bodies evaluate the formulas over [`Dyadic`]; an implementation overrides them with filtered versions
-/// that return the same signs sooner. ([`NaivePoints`](super::NaivePoints) are the exception: their signs are rounded,
+/// that return the same signs sooner. (`NaivePoints` are the exception: their signs are rounded,
 /// for experiments.)
 pub trait PointStore: Sync {
     /// The number of points.

@@ -21,6 +21,7 @@ use super::event::{self, Event, Signs};
 use super::moves::{FlipKind, flip_of_triangle};
 use super::time::{FlipTime, FlipTimes};
 use super::{Created, FlipCounts};
+use crate::delaunay::is_locally_delaunay;
 use crate::kinetic::{EventQueue, TimeOrder};
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
@@ -235,12 +236,8 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
     /// not in the region were.
     fn check_delaunay(&self) -> Result<(), Blocked> {
         let tets = self.created_tets();
-        let inner = corners(&tets).filter(|&c| !self.mesh.is_ghost(self.mesh.neighbor(c)));
-        let mut bad = inner
-            .filter(|&c| {
-                let circuit = event::circuit(self.mesh, c);
-                self.points.insphere(circuit).is_positive()
-            })
+        let mut bad = corners(&tets)
+            .filter(|&c| !is_locally_delaunay(self.points, self.mesh, c))
             .map(|c| face(self.mesh.facet(c)))
             .filter(|&t| !(self.kept.triangle)(t));
         bad.next().map_or(Ok(()), |t| Err(Blocked::TooLate(t)))

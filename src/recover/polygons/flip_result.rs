@@ -7,6 +7,7 @@
 //! they fill R, each point once; if moreover none crosses f, all subpolygons are still there, and every other face is locally
 //! Delaunay, then they are the CDT, which is unique.
 
+use crate::delaunay::is_locally_delaunay;
 use crate::mesh::{Corner, TetId, TetMesh};
 use crate::predicate::PointStore;
 use crate::recover::region::Sides;
@@ -88,13 +89,7 @@ impl<P: PointStore> FlipResult<'_, P> {
         let on_f: FxHashSet<Face> = on_f.iter().copied().collect();
         let points = self.sides.points();
         let bad = corners(self.tets)
-            .filter(|&c| !self.mesh.is_ghost(self.mesh.neighbor(c)))
-            .filter(|&c| {
-                let [a, b, d, e] = self.mesh.vertices(c.tet());
-                points
-                    .insphere([a, b, d, e, self.mesh.apex_across(c)])
-                    .is_positive()
-            })
+            .filter(|&c| !is_locally_delaunay(points, self.mesh, c))
             .filter(|&c| {
                 let t = face(self.mesh.facet(c));
                 !on_f.contains(&t) && !self.subpolygons.contains_key(&t)

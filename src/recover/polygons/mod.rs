@@ -17,6 +17,7 @@ use super::segments::{SegmentIndex, Subsegments};
 use super::subpolygons::{Face, face};
 use super::tables::Table;
 use crate::clock::{TaskClock, TaskSeconds};
+use crate::delaunay::is_locally_delaunay;
 use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
@@ -426,13 +427,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
                 .position(|v| ![a, b, c].contains(v))
                 .expect("three of four vertices");
             let corner = t.corner(apex);
-            let ghost = |t: TetId| self.mesh.is_ghost(t);
-            ghost(t)
-                || ghost(self.mesh.neighbor(corner))
-                || !self
-                    .points
-                    .insphere([v[0], v[1], v[2], v[3], self.mesh.apex_across(corner)])
-                    .is_positive()
+            self.mesh.is_ghost(t) || is_locally_delaunay(self.points, self.mesh, corner)
         })
     }
 
