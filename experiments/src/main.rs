@@ -11,7 +11,7 @@ use tetflip_experiments::frame::ledger::{Entry, Ledger};
 use tetflip_experiments::frame::machine::Machine;
 use tetflip_experiments::frame::program::Program;
 use tetflip_experiments::frame::record::Results;
-use tetflip_experiments::frame::{About, Context, Failed};
+use tetflip_experiments::frame::{About, Context, Experiment, Failed};
 use tetflip_experiments::measure::threads;
 use tetflip_experiments::questions::{flip_order, scaling};
 use tetflip_experiments::registry::ALL;
@@ -65,6 +65,18 @@ enum Verb {
         /// The page. [default: report.html beside the results]
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
+    },
+    /// Makes the tables of the shards of an experiment into one: the one that a single machine would have made.
+    Join {
+        /// Which experiment.
+        #[arg(value_parser = names())]
+        experiment: String,
+        /// The results of the shards: directories.
+        #[arg(required = true)]
+        shards: Vec<PathBuf>,
+        /// Where the joined results go.
+        #[arg(long, value_name = "DIR")]
+        results: PathBuf,
     },
     /// This library as one of the programs that the experiment `rivals` runs.
     #[command(hide = true)]
@@ -157,6 +169,11 @@ fn main() -> ExitCode {
             check,
         }) => write_paper(&results, &output, check),
         Some(Verb::Report { results, output }) => make_report(&results, output),
+        Some(Verb::Join {
+            experiment,
+            shards,
+            results,
+        }) => join(&experiment, &shards, &results),
         Some(Verb::Contestant { what, input, .. }) => ours::take_part(&what, &input).map(|()| true),
         Some(Verb::Scale { what, size }) => scaling::take_part(&what, size).map(|()| true),
         Some(Verb::Limited {
@@ -222,6 +239,19 @@ fn make_report(results: &Path, output: Option<PathBuf>) -> Result<bool, Failed> 
     let path = page::write(results, output)?;
     println!("{}", path.display());
     Ok(true)
+}
+
+fn join(name: &str, shards: &[PathBuf], results: &Path) -> Result<bool, Failed> {
+    let results = Results::create(results)?;
+    for path in experiment(name).join(shards, &results)? {
+        println!("{}", path.display());
+    }
+    Ok(true)
+}
+
+fn experiment(name: &str) -> &'static dyn Experiment {
+    let found = ALL.iter().find(|e| e.about().name == name);
+    *found.expect("the parser knows the names")
 }
 
 impl Run {
@@ -300,8 +330,6 @@ fn child(name: &str) -> std::io::Result<std::process::ExitStatus> {
 }
 
 fn run_here(name: &str, run: Run) -> Result<bool, Failed> {
-    let experiment = ALL.iter().find(|e| e.about().name == name);
-    let experiment = experiment.expect("the parser knows the names");
     let context = Context {
         quick: run.quick,
         results: Results::create(&run.directory())?,
@@ -313,7 +341,7 @@ fn run_here(name: &str, run: Run) -> Result<bool, Failed> {
         limit: Duration::from_secs(run.limit),
         shard: run.shard,
     };
-    let answer = experiment.run(&context).unwrap_or_else(|error| {
+    let answer = experiment(name).run(&context).unwrap_or_else(|error| {
         eprintln!("{name}: {error}");
         std::process::exit(2);
     });

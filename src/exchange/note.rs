@@ -28,6 +28,10 @@ pub enum NoteCode {
     FillsHull,
     /// Delaunayhood was not checked (`any-triangulation`).
     AnyTriangulation,
+    /// Files of a collection that are no models (`skipped-files`).
+    SkippedFiles,
+    /// Rows that several tables of a survey have, all the same (`repeated-rows`).
+    RepeatedRows,
 }
 
 impl NoteCode {
@@ -44,6 +48,8 @@ impl NoteCode {
             NoteCode::MergedByAngle => "merged-by-angle",
             NoteCode::FillsHull => "fills-hull",
             NoteCode::AnyTriangulation => "any-triangulation",
+            NoteCode::SkippedFiles => "skipped-files",
+            NoteCode::RepeatedRows => "repeated-rows",
         }
     }
 }

@@ -43,6 +43,9 @@ pub use stl::read_stl;
 use crate::exchange::{Note, Plc};
 use std::path::{Path, PathBuf};
 
+/// The extensions of what [`read_plc`] reads.
+pub const EXTENSIONS: [&str; 8] = ["mesh", "node", "obj", "off", "ply", "poly", "smesh", "stl"];
+
 /// Reads a file in the format that its extension names, in either case: `.poly`, `.smesh`, `.node`, `.off`, `.stl`,
 /// `.ply`, `.obj` or `.mesh`.
 ///

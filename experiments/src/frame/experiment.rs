@@ -27,6 +27,14 @@ pub trait Experiment: Sync {
     /// # Errors
     /// If it cannot be completed. An expectation that does not hold is no error, but part of the answer.
     fn run(&self, context: &Context) -> Result<Answer, Failed>;
+
+    /// Makes the tables of several shards ([`Context::shard`]) into one and writes it to `results`.
+    ///
+    /// # Errors
+    /// If this experiment cannot be divided, or if the shards do not belong together.
+    fn join(&self, _shards: &[PathBuf], _results: &Results) -> Result<Vec<PathBuf>, Failed> {
+        Err("this experiment cannot be divided among machines".into())
+    }
 }
 
 /// What a list of experiments says of one.

@@ -2,9 +2,11 @@
 
 pub mod expectation;
 pub mod experiment;
+pub mod join;
 pub mod ledger;
 pub mod machine;
 pub mod program;
+pub mod query;
 pub mod record;
 pub mod row;
 pub mod sheet;

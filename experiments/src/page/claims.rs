@@ -2,7 +2,8 @@
 
 use super::files::Files;
 use super::html::escape;
-use super::table::Table;
+use crate::frame::query::Rows;
+use crate::frame::sheet::Sheet;
 
 /// A statement of the paper, and how to find ours. An error says what is missing.
 struct Claim {
@@ -67,33 +68,29 @@ pub fn html(files: &Files) -> String {
     html + "</tbody></table></div>\n"
 }
 
-fn cell<'t>(
-    table: &'t Table,
-    name: &str,
-    keys: &[(&str, &str)],
-    column: &str,
-) -> Result<&'t str, String> {
-    let found = table.find(keys, column).filter(|value| !value.is_empty());
-    found.ok_or_else(|| {
-        let keys: Vec<&str> = keys.iter().map(|(_, value)| *value).collect();
-        format!("{name}.csv has no {column} of {}", keys.join(", "))
-    })
+/// What the only such row of `NAME.csv` has in a column.
+fn cell(sheet: &Sheet, conditions: &str, column: &str) -> Result<String, String> {
+    let rows = Rows::all(sheet)
+        .only(conditions)
+        .map_err(|e| e.to_string())?;
+    match rows.text(column).map_err(|e| e.to_string())? {
+        "" => Err(format!("{} has no {column} with {conditions}", sheet.file)),
+        text => Ok(escape(text)),
+    }
 }
 
 fn growth(files: &Files) -> Result<String, String> {
     let table = files.table("growth-summary")?;
-    let from = table
-        .rows
-        .first()
-        .and_then(|r| Some(&*r[table.column("from_vertices")?]));
-    let to = table
-        .rows
-        .first()
-        .and_then(|r| Some(&*r[table.column("to_vertices")?]));
-    let (from, to) = from.zip(to).ok_or("growth-summary.csv has no rows")?;
+    let (from, to) = (
+        cell(&table, "", "from_vertices")?,
+        cell(&table, "", "to_vertices")?,
+    );
     let exponent = |method| {
-        let keys = [("method", method), ("from_vertices", from)];
-        cell(&table, "growth-summary", &keys, "exponent").map(escape)
+        cell(
+            &table,
+            &format!("method={method}, from_vertices={from}"),
+            "exponent",
+        )
     };
     Ok(format!(
         "Seconds grow as n<sup>{}</sup> for flips in exact order and as n<sup>{}</sup> for cavities, from {from} to {to} vertices \
@@ -107,14 +104,13 @@ fn growth(files: &Files) -> Result<String, String> {
 fn ratios(files: &Files, classes: &[&str]) -> Result<String, String> {
     let table = files.table("fig9-summary")?;
     let mut parts = Vec::new();
-    for &class in classes {
+    for class in classes {
         let of = |times, column| {
-            let keys = [
-                ("crossing_from", class),
-                ("insertion", "flip"),
-                ("times", times),
-            ];
-            cell(&table, "fig9-summary", &keys, column).map(escape)
+            cell(
+                &table,
+                &format!("crossing_from={class}, insertion=flip, times={times}"),
+                column,
+            )
         };
         // A quick run has fewer classes.
         let Ok(below) = of("f64", "crossing_below") else {
@@ -129,88 +125,62 @@ fn ratios(files: &Files, classes: &[&str]) -> Result<String, String> {
     if parts.is_empty() {
         return Err("fig9-summary.csv has none of these size classes".to_string());
     }
+    let parts = parts.join("; ");
     Ok(format!(
-        "Median time of flips over that of cavities: {}.",
-        parts.join("; ")
+        "Median time of flips over that of cavities: {parts}."
     ))
+}
+
+/// What is asked of some rows ([`crate::frame::query`]).
+fn asked(sheet: &Sheet, conditions: &str, question: &str) -> Result<f64, String> {
+    let rows = Rows::all(sheet).only(conditions);
+    rows.and_then(|rows| rows.number(question))
+        .map_err(|e| e.to_string())
 }
 
 /// The worst of our models in `table1.csv`, of those that succeeded.
 fn polygons(files: &Files) -> Result<String, String> {
     let table = files.table("table1")?;
-    let at = |name: &str| {
-        let place = table.column(name);
-        place.ok_or_else(|| format!("table1.csv has no column {name}"))
+    let ours = "source!=paper, outcome=ok, cavity_seconds!=, flip_seconds!=, total_seconds!=";
+    let worst = |part: &str| {
+        let most = asked(&table, ours, &format!("most({part})"))?;
+        Ok::<_, String>(format!("{:.1} %", 100.0 * most))
     };
-    let (source, outcome) = (at("source")?, at("outcome")?);
-    let columns = [
-        at("cavity_seconds")?,
-        at("flip_seconds")?,
-        at("total_seconds")?,
-    ];
-    let ours = table.rows.iter();
-    let ours = ours.filter(|r| r[source] != "paper" && r[outcome] == "ok");
-    let seconds = ours.filter_map(|r| {
-        let [cavities, flips, all] = columns.map(|i| r[i].parse::<f64>().ok());
-        Some((cavities?, flips?, all?))
-    });
-    let seconds: Vec<(f64, f64, f64)> = seconds.collect();
-    if seconds.is_empty() {
-        return Err("table1.csv has no times".to_string());
-    }
-    let worst = |part: &dyn Fn(&(f64, f64, f64)) -> f64| {
-        let most = seconds.iter().map(part).fold(0.0, f64::max);
-        format!("{:.1} %", 100.0 * most)
-    };
+    let difference = "abs(cavity_seconds - flip_seconds)";
+    // The greater of two numbers is half of their sum and their difference.
+    let slower = format!("(cavity_seconds + flip_seconds + {difference})");
     Ok(format!(
         "On {} models they differ by at most {} of the slower, and by at most {} of the whole construction; polygons by cavities take at \
          most {} of that.",
-        seconds.len(),
-        worst(&|&(c, f, _)| (c - f).abs() / c.max(f)),
-        worst(&|&(c, f, all)| (c - f).abs() / all),
-        worst(&|&(c, _, all)| c / all)
+        asked(&table, ours, "sum(1)")?,
+        worst(&format!("2 * {difference} / {slower}"))?,
+        worst(&format!("{difference} / total_seconds"))?,
+        worst("cavity_seconds / total_seconds")?
     ))
-}
-
-/// Sums over all families of `flip_order.csv`.
-fn sum(table: &Table, times: &str, column: &str) -> Result<u64, String> {
-    let at = |name: &str| {
-        let place = table.column(name);
-        place.ok_or_else(|| format!("flip_order.csv has no column {name}"))
-    };
-    let (subfamily, number, value) = (at("subfamily")?, at("times")?, at(column)?);
-    let rows = table.rows.iter();
-    let rows = rows.filter(|r| r[subfamily] == "all" && r[number] == times);
-    rows.map(|r| {
-        r[value]
-            .parse::<u64>()
-            .map_err(|_| format!("flip_order.csv: {column} is no count"))
-    })
-    .sum()
 }
 
 fn stuck(files: &Files) -> Result<String, String> {
     let table = files.table("flip_order")?;
-    let f64 = |column| sum(&table, "f64", column);
+    let f64 = |question| asked(&table, "subfamily=all, times=f64", question);
     Ok(format!(
         "With times in f64, {} of {} small inputs made for it fail: {} get stuck, {} of them at Schönhardt’s polyhedron, and {} end in \
          what is not the CDT. <a href=\"#viewer\">One of them, step by step.</a>",
-        f64("inputs")? - f64("ok")?,
-        f64("inputs")?,
-        f64("stuck")?,
-        f64("stuck_schoenhardt")?,
-        f64("not_delaunay")?
+        f64("sum(inputs - ok)")?,
+        f64("sum(inputs)")?,
+        f64("sum(stuck)")?,
+        f64("sum(stuck_schoenhardt)")?,
+        f64("sum(not_delaunay)")?
     ))
 }
 
 fn exact(files: &Files) -> Result<String, String> {
     let table = files.table("flip_order")?;
-    let exact = |column| sum(&table, "filtered", column);
+    let exact = |question| asked(&table, "subfamily=all, times=filtered", question);
     Ok(format!(
         "In exact order with the perturbation, {} of {} inputs fail, with {} pairs of flips in the wrong order and {} uses of a patch.",
-        exact("inputs")? - exact("ok")?,
-        exact("inputs")?,
-        exact("kendall")?,
-        exact("postponed")? + exact("non_crossing")? + exact("discarded_outside")?
+        exact("sum(inputs - ok)")?,
+        exact("sum(inputs)")?,
+        exact("sum(kendall)")?,
+        exact("sum(postponed + non_crossing + discarded_outside)")?
     ))
 }

@@ -1,6 +1,6 @@
 //! The files of a directory of results, read on demand. What is asked for and not there is noted.
 
-use super::table::Table;
+use crate::frame::sheet::Sheet;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::io::ErrorKind;
@@ -33,9 +33,10 @@ impl Files {
     }
 
     /// `NAME.csv`.
-    pub fn table(&self, name: &str) -> Result<Table, String> {
-        let text = self.text(&format!("{name}.csv"))?;
-        Table::read(text.as_bytes()).map_err(|error| format!("{name}.csv is no CSV: {error}"))
+    pub fn table(&self, name: &str) -> Result<Sheet, String> {
+        let file = format!("{name}.csv");
+        let text = self.text(&file)?;
+        Sheet::parse(&file, &text).map_err(|error| format!("{name}.csv is no CSV: {error}"))
     }
 
     /// The pictures `NAME.png` of a directory beside the results, by name; an error if there are none.
@@ -47,10 +48,7 @@ impl Files {
             .filter_map(|e| Some(e.ok()?.path()));
         let mut pictures = Vec::new();
         for path in paths.filter(|p| p.extension().is_some_and(|e| e == "png")) {
-            let name = path
-                .file_stem()
-                .and_then(|n| n.to_str())
-                .unwrap_or_default();
+            let name = path.file_stem().unwrap_or_default().to_string_lossy();
             let bytes = std::fs::read(&path);
             let bytes = bytes.map_err(|e| format!("{directory}/{name}.png cannot be read: {e}"))?;
             pictures.push((name.to_string(), bytes));

@@ -1,27 +1,25 @@
 //! `report.html`: the results, beside the paper's, on one page that needs nothing else: no network, no other file.
 //!
 //! It has every table and plot of a directory of results (`contents`), what the README of this package says of them
-//! (`guide`), the paper's numbers (`paper`, `claims`), and a viewer in which one can step through insertions flip by
+//! (`guide`), the paper's numbers (`beside`, `claims`), and a viewer in which one can step through insertions flip by
 //! flip, in exact order and with rounded times side by side (`scenes`). The page is a function of the files and of these
 //! sources: the same results give the same bytes. What is missing is named on the page.
 
 mod beside;
 mod claims;
 mod contents;
-mod figure;
+mod figures;
 mod files;
 mod film;
 mod guide;
 mod html;
-mod paper;
 mod picture;
-mod pictures;
 mod scenes;
 mod section;
 mod table;
 
 use crate::frame::record::RecordError;
-use contents::SECTIONS;
+use contents::sections;
 use files::Files;
 use guide::Guide;
 use html::{escape, script_json};
@@ -66,17 +64,14 @@ fn io_error(path: &Path, source: std::io::Error) -> RecordError {
 pub fn page(directory: &Path) -> String {
     let (files, guide) = (Files::of(directory), Guide::of_package());
     let paper = paper_section(&files);
-    let sections: Vec<String> = SECTIONS
-        .iter()
-        .map(|s| section::html(s, &files, &guide))
-        .collect();
+    let contents = sections();
+    let sections = contents.iter().map(|s| section::html(s, &files, &guide));
+    let sections: Vec<String> = sections.collect();
     let runs = section::runs(&files, &guide);
     let others = section::others(&files, &guide);
     let scenes = serde_json::to_string(&scenes::all()).expect("numbers and names");
-    let links: String = SECTIONS
-        .iter()
-        .map(|s| format!("<a href=\"#{}\">{}</a>\n", s.stem, escape(s.title)))
-        .collect();
+    let link = |s: &contents::Section| format!("<a href=\"#{}\">{}</a>\n", s.stem, escape(s.title));
+    let links: String = contents.iter().map(link).collect();
     let missing = quick(&files) + &missing(&files);
     let programs = PROGRAMS.join("\n");
     format!(
@@ -127,8 +122,8 @@ fn paper_section(files: &Files) -> String {
          colour, these results</span>: <code>table1.csv</code>, the same model where it was at hand, else one of its kind and size, with flips \
          and cavities of this library.</p>\n{}{}</section>\n",
         claims::html(files),
-        beside::html(files.table("table1").ok().as_ref()),
-        paper::table_2(
+        beside::table_1(files.table("table1").ok().as_ref()),
+        beside::table_2(
             "The paper’s <strong>Table 2</strong>: proportion of the time of polygon insertion."
         ),
     )
@@ -137,7 +132,10 @@ fn paper_section(files: &Files) -> String {
 /// Says that times mean little, if some are of the quick form.
 fn quick(files: &Files) -> String {
     let ledger = files.table("RUNS").ok();
-    let is_quick = ledger.is_some_and(|t| t.find(&[("form", "quick")], "form").is_some());
+    let is_quick = ledger.is_some_and(|t| {
+        t.all()
+            .any(|row| row.text("form").is_ok_and(|f| f == "quick"))
+    });
     if !is_quick {
         return String::new();
     }

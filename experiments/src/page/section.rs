@@ -1,11 +1,12 @@
 //! The sections of the page: what is said of an experiment, how it ended, its plots, its tables.
 
-use super::contents::{Part, Pivot, SECTIONS, SHOWN_ELSEWHERE, Section};
-use super::figure;
+use super::contents::{How, Part, SHOWN_ELSEWHERE, Section, sections};
+use super::figures;
 use super::files::Files;
 use super::guide::Guide;
 use super::html::{escape, inline};
-use super::pictures;
+use super::table::{self, Table};
+use crate::frame::query::Rows;
 use crate::registry::ALL;
 use std::fmt::Write;
 
@@ -40,35 +41,34 @@ pub fn html(section: &Section, files: &Files, guide: &Guide) -> String {
         );
     }
     html += &outcome(stem, files);
-    let mut figures = String::new();
-    let mut tables = String::new();
-    for &part in section.parts {
-        match part {
-            Part::Figure(name, caption) => match figure::html(files, name, caption) {
+    let (mut figures, mut tables) = (String::new(), String::new());
+    for Part { how, name, caption } in &section.parts {
+        match how {
+            How::Figure => match figures::plot(files, name, caption) {
                 Ok(figure) => figures += &figure,
                 Err(missing) => tables += &absent(&missing),
             },
-            Part::Pictures(name, caption) => {
-                let html = pictures::html(files, name, caption);
+            How::Pictures => {
+                let html = figures::pictures(files, name, caption);
                 tables += &html.unwrap_or_else(|missing| absent(&missing));
             }
-            Part::Pivot(ref pivot) => tables += &pivoted(files, pivot),
-            Part::Table(name, caption) => tables += &table(files, guide, stem, name, caption),
-            Part::Rows(name, caption) => {
-                tables += &rows(files, guide, stem, (name, caption), None);
+            How::Pivot(pivot) => {
+                let table = files.table(name);
+                let html =
+                    table.and_then(|t| table::pivot(&t, caption, pivot).map_err(|e| e.to_string()));
+                tables += &html.unwrap_or_else(|missing| absent(&missing));
             }
-            Part::Chosen(name, caption, only) => {
-                tables += &rows(files, guide, stem, (name, caption), Some(only));
-            }
+            How::Table => tables += &table(files, guide, stem, name, caption),
+            How::Rows(only) => tables += &rows(files, guide, stem, (name, caption), only),
         }
     }
     for name in unnamed(files, Some(stem)) {
         match name.rsplit_once('.') {
-            Some((name, "svg")) => match figure::html(files, name, "") {
+            Some((name, "svg")) => match figures::plot(files, name, "") {
                 Ok(figure) => figures += &figure,
                 Err(missing) => tables += &absent(&missing),
             },
-            Some((name, _)) => tables += &rows(files, guide, stem, (name, "More rows."), None),
+            Some((name, _)) => tables += &rows(files, guide, stem, (name, "More rows."), ""),
             None => {}
         }
     }
@@ -91,7 +91,13 @@ fn outcome(stem: &str, files: &Files) -> String {
             ));
         }
     };
-    let of = |column| ledger.find(&[("experiment", stem)], column).unwrap_or("");
+    let entry = Rows::all(&ledger).only(&format!("experiment={stem}")).ok();
+    let of = |column| {
+        entry
+            .as_ref()
+            .and_then(|e| e.text(column).ok())
+            .unwrap_or("")
+    };
     let text = match of("outcome") {
         "ok" => "every expectation holds",
         "broken" => "an expectation does not hold",
@@ -109,40 +115,38 @@ fn outcome(stem: &str, files: &Files) -> String {
 
 fn table(files: &Files, guide: &Guide, stem: &str, name: &str, caption: &str) -> String {
     match files.table(name) {
-        Ok(table) => {
+        Ok(sheet) => {
             let caption = format!("{} <code>{name}.csv</code>.", escape(caption));
-            table.html(guide, stem, name, &caption)
+            Table::html(&sheet, guide, stem, name, &caption)
         }
         Err(missing) => absent(&missing),
     }
 }
 
-/// All rows, or some, folded away.
+/// All rows, or those that keep a condition, folded away.
 fn rows(
     files: &Files,
     guide: &Guide,
     stem: &str,
     (name, caption): (&str, &str),
-    only: Option<[&str; 2]>,
+    only: &str,
 ) -> String {
-    let mut table = match files.table(name) {
-        Ok(table) => table,
+    let mut sheet = match files.table(name) {
+        Ok(sheet) => sheet,
         Err(missing) => return absent(&missing),
     };
-    let all = table.rows.len();
-    if let Some([column, value]) = only
-        && let Some(i) = table.column(column)
-    {
-        table.rows.retain(|row| row[i] == value);
+    let all = sheet.cells.len();
+    if let Ok(kept) = Rows::all(&sheet).only(only) {
+        let places = kept.rows.iter().map(|row| row.line() - 2);
+        sheet.cells = places.map(|i| sheet.cells[i].clone()).collect();
     }
-    let shown = match table.rows.len() {
+    let shown = match sheet.cells.len() {
         n if n == all => format!("{all} rows"),
         n => format!("{n} of {all} rows"),
     };
-    let caption = escape(caption);
+    let (caption, table) = (escape(caption), Table::html(&sheet, guide, stem, name, ""));
     format!(
-        "<details><summary>{caption} <code>{name}.csv</code>, {shown}</summary>\n{}</details>\n",
-        table.html(guide, stem, name, "")
+        "<details><summary>{caption} <code>{name}.csv</code>, {shown}</summary>\n{table}</details>\n"
     )
 }
 
@@ -176,7 +180,7 @@ pub fn others(files: &Files, guide: &Guide) -> String {
     let mut html = String::new();
     for name in unnamed(files, None) {
         html += &match name.rsplit_once('.') {
-            Some((stem, "svg")) => figure::html(files, stem, "").unwrap_or_else(|e| absent(&e)),
+            Some((stem, "svg")) => figures::plot(files, stem, "").unwrap_or_else(|e| absent(&e)),
             Some((stem, _)) => table(files, guide, stem, stem, ""),
             None => String::new(),
         };
@@ -189,26 +193,24 @@ pub fn others(files: &Files, guide: &Guide) -> String {
 
 /// Files that no section names, but whose names begin with the stem of this section and a hyphen, or with none's.
 fn unnamed(files: &Files, stem: Option<&str>) -> Vec<String> {
-    let parts = SECTIONS.iter().flat_map(|s| s.parts);
-    let known: Vec<String> = parts.map(|p| p.file()).collect();
+    let sections = sections();
+    let parts = sections.iter().flat_map(|s| &s.parts);
+    let known: Vec<String> = parts.map(Part::file).collect();
     let belongs = |name: &String, stem: &str| {
         let rest = name.strip_prefix(stem);
         rest.is_some_and(|r| r.starts_with('-'))
     };
     let stem_of = |name: &String| {
-        let stems = SECTIONS.iter().map(|s| s.stem);
-        stems.into_iter().find(|stem| belongs(name, stem))
+        sections
+            .iter()
+            .map(|s| s.stem)
+            .find(|stem| belongs(name, stem))
     };
     let mut names = files.present();
     names.retain(|n| {
         !known.contains(n) && !SHOWN_ELSEWHERE.contains(&n.as_str()) && stem_of(n) == stem
     });
     names
-}
-
-fn pivoted(files: &Files, pivot: &Pivot) -> String {
-    let table = files.table(pivot.file).and_then(|t| t.pivot(pivot));
-    table.unwrap_or_else(|missing| absent(&missing))
 }
 
 /// Says that something is missing.

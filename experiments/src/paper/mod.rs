@@ -3,29 +3,22 @@
 //!
 //! `experiments paper` writes them to `paper/generated`; `--check` compares instead. A file or a row that is missing is an
 //! error that names it, except for the experiments that need other programs or hours (`optional`): in their place the
-//! paper says that they have not been run. Sentences that numbers could contradict are claims (`claims`). The same results give the
-//! same bytes.
+//! paper says that they have not been run. Sentences that numbers could contradict are claims. What the text
+//! needs is listed in two tables, `numbers.txt` and `claims.txt`. The same results give the same bytes.
 
-mod claims;
-mod cost;
-mod fig9;
-mod fig9_tetgen;
-mod flip_order;
-mod growth;
 mod lint;
-mod machine;
-mod macros;
+mod needed;
 mod number;
+mod numbers;
 mod optional;
+mod sheets;
 mod table;
-mod table1;
-mod updates;
 
-pub use crate::frame::sheet::PaperError;
-pub use claims::Claim;
+pub use crate::frame::sheet::SheetError;
 pub use lint::{Finding, digits};
+pub use numbers::Claim;
 
-use macros::Macros;
+use sheets::Sheets;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -38,58 +31,33 @@ pub struct Generated {
     pub claims: Vec<Claim>,
 }
 
-/// The files under construction.
-#[derive(Clone, Debug, Default)]
-struct Builder {
-    macros: Macros,
-    generated: Generated,
-}
-
-impl Builder {
-    fn file(&mut self, name: &str, text: String) {
-        let before = self.generated.files.insert(name.to_string(), text);
-        assert!(before.is_none(), "two files {name}");
-    }
-
-    /// A sentence that the paper says, and what contradicts it.
-    fn claim(&mut self, sentence: &str, contradictions: Vec<String>) {
-        self.generated.claims.push(Claim {
-            sentence: sentence.to_string(),
-            contradictions,
-        });
-    }
-}
-
 /// Everything, from a directory of results.
 ///
 /// # Errors
 /// If a file, a column or a row is missing.
-pub fn generate(results: &Path) -> Result<Generated, PaperError> {
-    let mut builder = Builder::default();
-    machine::add(&mut builder, results)?;
-    fig9::add(&mut builder, results)?;
-    flip_order::add(&mut builder, results)?;
-    cost::add(&mut builder, results)?;
-    growth::add(&mut builder, results)?;
-    optional::add(&mut builder, results)?;
-    let Builder {
-        macros,
-        mut generated,
-    } = builder;
-    generated
-        .files
-        .insert("numbers.tex".to_string(), macros.into_text());
-    Ok(generated)
+pub fn generate(results: &Path) -> Result<Generated, SheetError> {
+    let sheets = Sheets::read(results)?;
+    let commands = numbers::commands(include_str!("numbers.txt"), &sheets)?;
+    let mut files = BTreeMap::from([("numbers.tex".to_string(), commands)]);
+    for (name, text) in needed::files(&sheets)?
+        .into_iter()
+        .chain(optional::files(&sheets)?)
+    {
+        let before = files.insert(name, text);
+        assert!(before.is_none(), "two files of one name");
+    }
+    let claims = numbers::claims(include_str!("claims.txt"), &sheets)?;
+    Ok(Generated { files, claims })
 }
 
 /// Writes the files to a directory, and returns how many.
 ///
 /// # Errors
 /// If they cannot be written.
-pub fn write(generated: &Generated, directory: &Path) -> Result<usize, PaperError> {
+pub fn write(generated: &Generated, directory: &Path) -> Result<usize, SheetError> {
     let refused = |path: &Path| {
         let path = path.to_path_buf();
-        move |source| PaperError::Io { path, source }
+        move |source| SheetError::Io { path, source }
     };
     std::fs::create_dir_all(directory).map_err(refused(directory))?;
     for (name, text) in &generated.files {
@@ -103,7 +71,7 @@ pub fn write(generated: &Generated, directory: &Path) -> Result<usize, PaperErro
 ///
 /// # Errors
 /// If the directory cannot be read.
-pub fn stale(generated: &Generated, directory: &Path) -> Result<Vec<String>, PaperError> {
+pub fn stale(generated: &Generated, directory: &Path) -> Result<Vec<String>, SheetError> {
     let mut stale = Vec::new();
     for (name, text) in &generated.files {
         match std::fs::read_to_string(directory.join(name)) {
@@ -112,7 +80,7 @@ pub fn stale(generated: &Generated, directory: &Path) -> Result<Vec<String>, Pap
             Err(_) => stale.push(format!("{name}: missing")),
         }
     }
-    let entries = std::fs::read_dir(directory).map_err(|source| PaperError::Io {
+    let entries = std::fs::read_dir(directory).map_err(|source| SheetError::Io {
         path: directory.to_path_buf(),
         source,
     })?;
@@ -138,38 +106,60 @@ mod tests {
     #[test]
     fn the_results_make_the_paper() {
         let generated = generate(&results()).expect("complete results");
-        assert_eq!(
-            generated.files,
-            generate(&results()).expect("the same").files
-        );
         for (name, text) in &generated.files {
             assert!(!text.contains("NaN"), "{name}");
         }
         let directory = tempfile::tempdir().expect("a directory");
-        write(&generated, directory.path()).expect("written");
-        assert!(
-            stale(&generated, directory.path())
-                .expect("read")
-                .is_empty()
-        );
-        std::fs::write(directory.path().join("numbers.tex"), "").expect("written");
-        std::fs::write(directory.path().join("old.tex"), "").expect("written");
-        let found = stale(&generated, directory.path()).expect("read");
+        let path = directory.path();
+        write(&generated, path).expect("written");
+        assert_eq!(stale(&generated, path).expect("read"), [] as [&str; 0]);
+        std::fs::write(path.join("numbers.tex"), "").expect("written");
+        std::fs::write(path.join("old.tex"), "").expect("written");
+        let found = stale(&generated, path).expect("read");
         assert_eq!(found, ["numbers.tex: differs", "old.tex: not generated"]);
     }
 
     #[test]
-    fn a_missing_file_is_named() {
-        let empty = tempfile::tempdir().expect("a directory");
-        let error = generate(empty.path()).expect_err("no results");
-        assert!(error.to_string().starts_with("MACHINE.txt"), "{error}");
+    fn a_missing_file_is_named_and_an_optional_one_is_said() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let error = || {
+            generate(directory.path())
+                .expect_err("no results")
+                .to_string()
+        };
+        assert!(error().starts_with("MACHINE.txt"), "{}", error());
+        let machine = "cpu: a\ncores: 1\nrustc: b\n";
+        std::fs::write(directory.path().join("MACHINE.txt"), machine).expect("written");
+        assert!(error().starts_with("fig9-summary.csv"), "{}", error());
+        let optional = ["rivals", "steiner", "table1"];
+        for entry in std::fs::read_dir(results()).expect("results").flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if name.ends_with(".csv") && !optional.iter().any(|stem| name.starts_with(stem)) {
+                std::fs::copy(entry.path(), directory.path().join(name)).expect("copied");
+            }
+        }
         std::fs::write(
-            empty.path().join("MACHINE.txt"),
-            "cpu: a\ncores: 1\nrustc: b\n",
+            directory.path().join("rivals.csv"),
+            "input,program\na,tetflip\n",
         )
         .expect("written");
-        let error = generate(empty.path()).expect_err("no results");
-        assert!(error.to_string().starts_with("fig9"), "{error}");
+        let generated = generate(directory.path()).expect("what is needed is there");
+        let numbers = &generated.files["numbers.tex"];
+        for (stem, switch) in [
+            ("rivals", "Rivals"),
+            ("steiner", "Steiner"),
+            ("table1", "TableOne"),
+        ] {
+            // Alone nothing is compared.
+            assert!(
+                generated.files[&format!("{stem}-table.tex")].contains("Not measured"),
+                "{stem}"
+            );
+            assert!(
+                numbers.contains(&format!("\\newif\\if{switch}\\{switch}false")),
+                "{switch}"
+            );
+        }
     }
 
     /// All LaTeX files of the paper, with their texts.

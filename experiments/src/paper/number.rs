@@ -1,5 +1,54 @@
 //! Numbers as the paper prints them.
 
+/// How a number is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// [`whole`].
+    Whole,
+    /// [`ratio`].
+    Ratio,
+    /// A part of 1: [`percent`].
+    Part,
+    /// The same with the sign.
+    Percent,
+    /// Two [`significant`] digits.
+    Rough,
+    /// Three.
+    Exact,
+}
+
+impl Format {
+    /// The format that a word names.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn of(word: &str) -> Format {
+        match word {
+            "whole" => Format::Whole,
+            "ratio" => Format::Ratio,
+            "part" => Format::Part,
+            "percent" => Format::Percent,
+            "rough" => Format::Rough,
+            other => panic!("{other}: no format"),
+        }
+    }
+
+    /// The number, or a dash.
+    pub fn print(self, number: Option<f64>) -> String {
+        let Some(x) = number else {
+            return "--".to_string();
+        };
+        match self {
+            Format::Whole => whole(x),
+            Format::Ratio => ratio(x),
+            Format::Part => percent(x),
+            Format::Percent => format!("{}\\,\\%", percent(x)),
+            Format::Rough => significant(x, 2),
+            Format::Exact => significant(x, 3),
+        }
+    }
+}
+
 /// A whole number with thin spaces between groups of three digits, from 10 000 on also in four-digit company.
 pub fn whole(x: f64) -> String {
     grouped(&format!("{x:.0}"))

@@ -1,7 +1,20 @@
 //! LaTeX tables: those that the other modules build, and any CSV as a table.
 
-use super::number;
-use crate::frame::sheet::{PaperError, Sheet};
+use super::number::{self, Format};
+use crate::frame::query::Rows;
+use crate::frame::sheet::{Sheet, SheetError};
+
+/// A column of a table: its head, what it asks of rows ([`crate::frame::query`]), and how it is printed.
+pub type Column<'a> = (&'a str, &'a str, Format);
+
+/// What columns say of rows.
+///
+/// # Errors
+/// If a column of the file is missing.
+pub fn cells(rows: &Rows, columns: &[Column]) -> Result<Vec<String>, SheetError> {
+    let cell = |&(_, question, format): &Column| Ok(format.print(rows.optional(question)?));
+    columns.iter().map(cell).collect()
+}
 
 /// A table with a head.
 #[derive(Clone, Debug)]
@@ -11,13 +24,14 @@ pub struct Table {
 }
 
 impl Table {
-    /// `columns` is the argument of `tabular`, `heads` are the heads of the columns.
-    pub fn new(columns: &str, heads: &[&str]) -> Table {
+    /// `columns` says how the columns are set, as in `tabular`; the heads of the first ones, and the others.
+    pub fn new(columns: &str, heads: &[&str], others: &[Column]) -> Table {
         let mut table = Table {
-            columns: columns.to_string(),
+            columns: format!("@{{}}{columns}@{{}}"),
             text: String::new(),
         };
-        table.row(heads);
+        let heads = heads.iter().copied().chain(others.iter().map(|c| c.0));
+        table.row(&heads.collect::<Vec<_>>());
         table.rule();
         table
     }
@@ -68,48 +82,21 @@ pub fn cell(text: &str) -> String {
     }
 }
 
-/// A table of any CSV: these columns with these heads, or all but `commit` if there are none; `turned` has a column for each row,
-/// as in Table 1 of Si & Shewchuk.
+/// Columns of a CSV as a table, each with its head.
 ///
 /// # Errors
 /// If a column is missing.
 pub fn of_sheet(
     sheet: &Sheet,
+    conditions: &str,
     columns: &[(&str, &str)],
-    turned: bool,
-) -> Result<String, PaperError> {
-    let all: Vec<(String, String)> = match columns {
-        [] => {
-            let names = sheet.header.iter().filter(|name| *name != "commit");
-            names
-                .map(|n| (n.clone(), escaped(&n.replace('_', " "))))
-                .collect()
-        }
-        some => some
-            .iter()
-            .map(|(n, h)| (n.to_string(), h.to_string()))
-            .collect(),
-    };
-    // One line for each column of the file.
-    let mut lines: Vec<Vec<String>> = Vec::new();
-    for (name, head) in &all {
-        let mut line = vec![head.clone()];
-        for row in sheet.all() {
-            line.push(cell(row.text(name)?));
-        }
-        lines.push(line);
+) -> Result<String, SheetError> {
+    let heads: Vec<&str> = columns.iter().map(|c| c.1).collect();
+    let mut table = Table::new(&format!("l{}", "r".repeat(heads.len() - 1)), &heads, &[]);
+    for row in Rows::all(sheet).only(conditions)?.rows {
+        let cells = columns.iter().map(|(name, _)| Ok(cell(row.text(name)?)));
+        table.row(&cells.collect::<Result<Vec<_>, SheetError>>()?);
     }
-    if !turned {
-        let rows = lines.first().map_or(0, Vec::len);
-        lines = (0..rows)
-            .map(|i| lines.iter().map(|line| line[i].clone()).collect())
-            .collect();
-    }
-    let width = lines.first().map_or(0, Vec::len);
-    let heads: Vec<&str> = lines[0].iter().map(String::as_str).collect();
-    let columns = format!("@{{}}l{}@{{}}", "r".repeat(width.saturating_sub(1)));
-    let mut table = Table::new(&columns, &heads);
-    lines[1..].iter().for_each(|line| table.row(line));
     Ok(table.into_text(&sheet.file))
 }
 
@@ -125,29 +112,22 @@ pub fn not_measured(file: &str) -> String {
 mod tests {
     use super::*;
 
-    fn sheet() -> Sheet {
-        let text = "model,n_tets,seconds,ok,commit\na_b,1234,0.123456,true,c\nx,5,,false,c\n";
-        Sheet::parse("t.csv", text).expect("a CSV")
-    }
-
     #[test]
-    fn any_csv_is_a_table() {
-        let text = of_sheet(&sheet(), &[], false).expect("all columns");
-        let expected = "% t.csv\n\\begin{tabular}{@{}lrrr@{}}\\toprule\nmodel & n tets & seconds & ok \\\\\n\\midrule\n\
+    fn columns_of_a_sheet() {
+        let text =
+            "model,n_tets,seconds,ok,commit\na_b,1234,0.123456,true,c\nx,5,,false,c\nx,6,,,d\n";
+        let sheet = Sheet::parse("t.csv", text).expect("a CSV");
+        let columns = [
+            ("model", "model"),
+            ("n_tets", "tets"),
+            ("seconds", "s"),
+            ("ok", "ok"),
+        ];
+        let text = of_sheet(&sheet, "commit=c", &columns).expect("these columns");
+        let expected = "% t.csv\n\\begin{tabular}{@{}lrrr@{}}\\toprule\nmodel & tets & s & ok \\\\\n\\midrule\n\
             a\\_b & 1\\,234 & 0.123 & yes \\\\\nx & 5 & -- & no \\\\\n\\bottomrule\n\\end{tabular}\n";
         assert_eq!(text, expected);
-    }
-
-    #[test]
-    fn turned_and_chosen() {
-        let columns = [("model", ""), ("n_tets", "(4) tetrahedra")];
-        let text = of_sheet(&sheet(), &columns, true).expect("these columns");
-        assert!(
-            text.contains(" & a\\_b & x \\\\\n\\midrule\n(4) tetrahedra & 1\\,234 & 5 \\\\\n"),
-            "{text}"
-        );
-        let missing = of_sheet(&sheet(), &[("flips", "flips")], true);
-        let missing = missing.expect_err("no such column").to_string();
-        assert_eq!(missing, "t.csv: no column `flips`");
+        let missing = of_sheet(&sheet, "", &[("flips", "flips")]).expect_err("no such column");
+        assert_eq!(missing.to_string(), "t.csv: no column `flips`");
     }
 }

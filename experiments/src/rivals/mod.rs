@@ -4,4 +4,3 @@ pub mod contestant;
 pub mod ours;
 pub mod process;
 pub mod rival;
-pub mod tetgen;

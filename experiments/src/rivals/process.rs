@@ -3,9 +3,10 @@
 //! The operating system tells the greatest memory of all children that a process has had, not of one: so each program is run
 //! by a copy of this program that has no other child ([`limited`]).
 
-use std::io::Read;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use tetflip::lab::process::{self, Partner};
+use tetflip::lab::tetgen::number_after;
 
 /// The processor time of this process so far, all threads, in seconds.
 #[cfg(unix)]
@@ -18,8 +19,11 @@ pub fn processor_seconds() -> f64 {
 /// Elsewhere: wall clock.
 #[cfg(not(unix))]
 pub fn processor_seconds() -> f64 {
-    static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
-    START.get_or_init(Instant::now).elapsed().as_secs_f64()
+    static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+    START
+        .get_or_init(std::time::Instant::now)
+        .elapsed()
+        .as_secs_f64()
 }
 
 /// The most memory that any child of this process had, in kibibytes, where the system tells.
@@ -68,64 +72,25 @@ pub fn run(program: &str, arguments: &[String], limit: Duration) -> Ran {
     }
 }
 
-/// Runs a program, passes on its output, tells its peak memory, and whether it ended well; kills it when the
-/// time is over.
+/// Runs a program, passes on its output, tells its peak memory, and whether it ended well; kills it when the time is over.
 ///
 /// # Errors
 /// If it cannot be started.
 pub fn limited(seconds: u64, program: &str, arguments: &[String]) -> std::io::Result<bool> {
-    let start = Instant::now();
-    let mut child = Command::new(program)
-        .args(arguments)
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .spawn()?;
-    let mut output = child.stdout.take().expect("a pipe was asked for");
-    let reader = std::thread::spawn(move || {
-        let mut text = Vec::new();
-        // What was read before an error counts.
-        let _ = output.read_to_end(&mut text);
-        text
-    });
-    let status = loop {
-        if let Some(status) = child.try_wait()? {
-            break Some(status);
-        }
-        if start.elapsed() > Duration::from_secs(seconds) {
-            child.kill()?;
-            child.wait()?;
-            break None;
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    };
-    let text = reader.join().expect("the reader does not panic");
-    println!("{}", String::from_utf8_lossy(&text));
+    let mut command = Command::new(program);
+    command.args(arguments);
+    let limit = Duration::from_secs(seconds);
+    let ran = process::run(&mut command, limit, &Partner::default())?;
+    println!("{}", ran.said);
     if let Some(peak) = peak_of_children() {
         println!("{PEAK} {peak}");
     }
-    Ok(status.is_some_and(|s| s.success()))
-}
-
-/// The number that follows a heading in a text, the first time.
-pub fn number_after(text: &str, heading: &str) -> Option<f64> {
-    let (_, rest) = text.split_once(heading)?;
-    let word = rest.split_whitespace().next()?;
-    word.trim_end_matches([',', ')', 's']).parse().ok()
+    Ok(ran.is_ok())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_after_headings() {
-        let text = "a: 1\nDelaunay seconds:  5.2e-05\n(Wall 2.918s, CPU 0.692431s)\n";
-        assert_eq!(number_after(text, "Delaunay seconds:"), Some(5.2e-5));
-        assert_eq!(number_after(text, "CPU"), Some(0.692431));
-        assert_eq!(number_after(text, "Wall"), Some(2.918));
-        assert_eq!(number_after(text, "nothing"), None);
-        assert_eq!(number_after(text, "(Wall 2.918s, CPU 0.692431s)"), None);
-    }
 
     #[test]
     fn processor_time_passes() {

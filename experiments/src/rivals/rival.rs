@@ -1,12 +1,11 @@
 //! Steiner points of other programs that take TetGen's switches and files.
 
 use crate::frame::program::Program;
-use std::collections::HashSet;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tetflip::exchange::Plc;
-use tetflip::format::{read_plc, write_poly};
+use tetflip::lab::process::{self, Partner};
+use tetflip::lab::tetgen::Files;
 
 /// How a rival's run ended.
 pub struct Run {
@@ -21,69 +20,27 @@ pub struct Run {
 impl Program {
     /// Runs the program on a PLC in a directory of its own, for so long at most.
     pub fn run(&self, plc: &Plc, limit: Duration) -> Run {
-        let failed = |outcome| Run {
-            steiner_points: None,
-            seconds: 0.0,
+        let ended = |outcome, seconds, steiner_points| Run {
+            steiner_points,
+            seconds,
             outcome,
         };
         let Ok(directory) = tempfile::tempdir() else {
-            return failed("no-directory");
+            return ended("no-directory", 0.0, None);
         };
-        let input = directory.path().join("model.poly");
-        if write_poly(&input, plc).is_err() {
-            return failed("not-written");
-        }
-        let start = Instant::now();
-        let outcome = self.outcome(&input, limit);
-        Run {
-            seconds: start.elapsed().as_secs_f64(),
-            steiner_points: (outcome == "ok")
-                .then(|| new_vertices(plc, &directory.path().join("model.1.node")))
-                .flatten(),
-            outcome,
-        }
-    }
-
-    fn outcome(&self, input: &Path, limit: Duration) -> &'static str {
-        let mut command = Command::new(&self.program);
-        command.arg(&self.switches).arg(input);
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        let Ok(mut child) = command.spawn() else {
-            return "no-program";
+        let Ok(files) = Files::write(plc, directory.path()) else {
+            return ended("not-written", 0.0, None);
         };
-        let start = Instant::now();
-        loop {
-            match child.try_wait() {
-                Ok(Some(status)) => {
-                    let has_mesh = input.with_file_name("model.1.ele").exists();
-                    return if status.success() && has_mesh {
-                        "ok"
-                    } else {
-                        "failed"
-                    };
-                }
-                Ok(None) if start.elapsed() < limit => {
-                    std::thread::sleep(Duration::from_millis(5));
-                }
-                _ => {
-                    // Either it is gone already, or it is now.
-                    let _ = child.kill();
-                    let _ = child.wait();
-                    return "time-limit";
-                }
+        let mut command = files.command(Path::new(&self.program), &self.switches);
+        match process::run(&mut command, limit, &Partner::default()) {
+            Err(_) => ended("no-program", 0.0, None),
+            Ok(ran) if ran.status.is_none() => ended("time-limit", ran.seconds, None),
+            Ok(ran) if ran.is_ok() && files.has_mesh() => {
+                ended("ok", ran.seconds, files.new_vertices(plc))
             }
+            Ok(ran) => ended("failed", ran.seconds, None),
         }
     }
-}
-
-/// How many vertices of a file are not those of the PLC. Programs write fewer digits than there are; duplicates and unused
-/// vertices of the input may be missing.
-fn new_vertices(plc: &Plc, nodes: &Path) -> Option<usize> {
-    let key = |p: &[f64; 3]| p.map(|x| format!("{:.12e}", x + 0.0));
-    let known: HashSet<[String; 3]> = plc.vertices.iter().map(key).collect();
-    let (written, _) = read_plc(nodes).ok()?;
-    let new = written.vertices.iter().filter(|p| !known.contains(&key(p)));
-    Some(new.count())
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ mod table;
 mod tetgen;
 mod worker;
 
-use super::{Stop, say};
+use super::{Stop, say, warn};
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use method::{Algorithm, Method, Steiner};
@@ -21,19 +21,25 @@ use models::{Model, models};
 use run::{Settings, run};
 use std::io;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::time::Instant;
 use table::{Run, Table};
+use tetflip::exchange::{Note, NoteCode};
 use tetflip::lab::{Shard, fnv1a};
 use worker::{Job, work};
 
 /// Arguments of `tetflip survey`.
 #[derive(clap::Args)]
 pub(crate) struct SurveyArguments {
-    /// The collection: a directory, searched with all below it for .poly, .smesh, .off and .stl; or one file.
-    collection: PathBuf,
+    /// The collection: a directory, searched with all below it for what `mesh` reads; or one file. With --merge: tables.
+    #[arg(required = true)]
+    collection: Vec<PathBuf>,
+    /// Makes one table of several, of shards or of methods: one header, in the order of the models' names. Rows that
+    /// contradict each other are refused.
+    #[arg(long, conflicts_with = "shard")]
+    merge: bool,
     /// The table, as CSV: a row for each model and method. If it is there, only the rows that it lacks are made.
     #[arg(short, long, required_unless_present = "worker")]
     output: Option<PathBuf>,
@@ -63,7 +69,7 @@ pub(crate) struct SurveyArguments {
     /// MiB of address space for one run. Enforced on Linux only.
     #[arg(long, default_value_t = 4096, value_parser = clap::value_parser!(u64).range(1..))]
     memory: u64,
-    /// Only part I of N of the collection, for several machines; their tables can be concatenated.
+    /// Only part I of N of the collection, for several machines; --merge makes one table of theirs.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
     /// Keep the whole convex hull instead of what the facets enclose.
@@ -114,9 +120,15 @@ pub(crate) fn survey(arguments: &SurveyArguments) -> Result<(), Stop> {
     if arguments.worker {
         return worker(arguments, &settings);
     }
-    let methods = methods(arguments);
     let output = arguments.output.as_ref().expect("clap requires it");
-    let mut list = models(&arguments.collection).map_err(Stop::input)?;
+    if arguments.merge {
+        return merge(&arguments.collection, output, arguments.quiet);
+    }
+    let methods = methods(arguments);
+    let (mut list, skipped) = models(one(&arguments.collection)?).map_err(Stop::input)?;
+    if let Some(note) = skipped {
+        warn(&note.to_string());
+    }
     if let Some(shard) = arguments.shard {
         list.retain(|model| shard.has(&model.name));
     }
@@ -154,6 +166,42 @@ pub(crate) fn survey(arguments: &SurveyArguments) -> Result<(), Stop> {
     Ok(())
 }
 
+/// The only collection.
+fn one(collection: &[PathBuf]) -> Result<&PathBuf, Stop> {
+    match collection {
+        [one] => Ok(one),
+        _ => Err(Stop::input(
+            "one collection at a time; --merge takes several tables",
+        )),
+    }
+}
+
+/// One table of several.
+fn merge(tables: &[PathBuf], output: &Path, quiet: bool) -> Result<(), Stop> {
+    let same = |table: &&PathBuf| {
+        table
+            .canonicalize()
+            .is_ok_and(|t| output.canonicalize().is_ok_and(|o| o == t))
+    };
+    if let Some(table) = tables.iter().find(same) {
+        return Err(Stop::input(format!(
+            "{} is an input and would be overwritten; choose another name",
+            table.display()
+        )));
+    }
+    let (rows, repeated) = table::merge(tables, output).map_err(Stop::input)?;
+    if repeated > 0 {
+        let text = format!(
+            "{repeated} rows are in several tables, the same but for seconds and memory: the first counts"
+        );
+        warn(&Note::new(NoteCode::RepeatedRows, repeated, text).to_string());
+    }
+    if !quiet {
+        say(summary::summary(&rows).trim_end());
+    }
+    Ok(())
+}
+
 fn worker(arguments: &SurveyArguments, settings: &Settings) -> Result<(), Stop> {
     let (&[algorithm], &[steiner]) = (&arguments.methods[..], &arguments.steiner[..]) else {
         return Err(Stop::input("a worker has one method"));
@@ -169,7 +217,7 @@ fn worker(arguments: &SurveyArguments, settings: &Settings) -> Result<(), Stop> 
         tetgen: &settings.tetgen,
         scratch: arguments.scratch.as_deref(),
     };
-    work(&arguments.collection, &job);
+    work(one(&arguments.collection)?, &job);
     Ok(())
 }
 

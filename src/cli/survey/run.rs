@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use tetflip::lab::tetgen::signal_name;
 
 /// How long a process that has been told to end may take over it.
 const GRACE: Duration = Duration::from_secs(2);
@@ -187,26 +188,4 @@ fn ending(status: ExitStatus) -> String {
         Some(code) => format!("Exit{code}"),
         None => signal_name(status),
     }
-}
-
-/// The signal that ended a process.
-#[cfg(unix)]
-pub(super) fn signal_name(status: ExitStatus) -> String {
-    use std::os::unix::process::ExitStatusExt;
-    match status.signal() {
-        Some(4) => "SIGILL".to_owned(),
-        Some(6) => "SIGABRT".to_owned(),
-        Some(8) => "SIGFPE".to_owned(),
-        Some(9) => "SIGKILL".to_owned(),
-        Some(11) => "SIGSEGV".to_owned(),
-        Some(15) => "SIGTERM".to_owned(),
-        Some(signal) => format!("Signal{signal}"),
-        None => "Unknown".to_owned(),
-    }
-}
-
-/// The signal that ended a process: there are none here.
-#[cfg(not(unix))]
-pub(super) fn signal_name(_status: ExitStatus) -> String {
-    "Unknown".to_owned()
 }

@@ -11,7 +11,7 @@ use super::worker::Findings;
 use csv::StringRecord;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions, Permissions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use tetflip::report::Report;
@@ -70,6 +70,17 @@ pub(super) enum TableError {
     Header { path: PathBuf },
     #[error("{}, line {line}: not a row of the table", .path.display())]
     Row { path: PathBuf, line: usize },
+    #[error("{}: its last line is torn; complete it by the survey that made it", .path.display())]
+    Torn { path: PathBuf },
+    #[error("{}: {file} {method} contradicts another table: {column} is `{this}`, not `{other}`", .path.display())]
+    Conflict {
+        path: PathBuf,
+        file: String,
+        method: String,
+        column: String,
+        this: String,
+        other: String,
+    },
 }
 
 /// A row, with its columns by name.
@@ -108,7 +119,6 @@ impl Row {
 pub(super) struct Table {
     path: PathBuf,
     file: File,
-    header: StringRecord,
     rows: Vec<Row>,
     keys: BTreeSet<[String; 4]>,
     /// The hash of our first mesh of a model and kind of Steiner points.
@@ -134,8 +144,7 @@ impl Table {
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(io)?;
         let whole = bytes.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
-        let header = header();
-        let line = line_of(&header);
+        let line = line_of(&header());
         // Never cut what is no table of ours.
         if !bytes.starts_with(line.as_bytes()) && !line.as_bytes().starts_with(&bytes) {
             return Err(TableError::Header {
@@ -147,7 +156,6 @@ impl Table {
         let mut table = Table {
             path: path.to_owned(),
             file,
-            header,
             rows: Vec::new(),
             keys: BTreeSet::new(),
             first: BTreeMap::new(),
@@ -155,30 +163,10 @@ impl Table {
         if whole == 0 {
             table.write(&line)?;
         }
-        table.take(&bytes[..whole])?;
-        Ok(table)
-    }
-
-    fn take(&mut self, bytes: &[u8]) -> Result<(), TableError> {
-        let reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .from_reader(bytes);
-        for (i, record) in reader.into_records().enumerate() {
-            let broken = || TableError::Row {
-                path: self.path.clone(),
-                line: i + 1,
-            };
-            let record = record.map_err(|_| broken())?;
-            if record == self.header {
-                continue;
-            }
-            if record.len() != self.header.len() {
-                return Err(broken());
-            }
-            self.push(Row(record));
+        for row in parse(path, &bytes[..whole])? {
+            table.push(row);
         }
-        Ok(())
+        Ok(table)
     }
 
     /// Of two rows of one run, the first counts.
@@ -255,26 +243,129 @@ impl Table {
     /// Replaces the file by one whose rows are in the order of the models' names: the same whatever ended first.
     pub(super) fn sort(&mut self) -> Result<(), TableError> {
         self.rows.sort_by(|a, b| a.get("file").cmp(b.get("file")));
-        let mut text = line_of(&self.header);
-        for row in &self.rows {
-            text += &line_of(&row.0);
-        }
-        let io = |source| TableError::Io {
-            path: self.path.clone(),
-            source,
-        };
-        let parent = self.path.parent().filter(|p| *p != Path::new(""));
-        let mut staged =
-            tempfile::NamedTempFile::new_in(parent.unwrap_or(Path::new("."))).map_err(io)?;
-        staged.write_all(text.as_bytes()).map_err(io)?;
-        let permissions = self.file.metadata().map_err(io)?.permissions();
-        staged.as_file().set_permissions(permissions).map_err(io)?;
-        staged.as_file().sync_all().map_err(io)?;
-        staged
-            .persist(&self.path)
-            .map_err(|error| io(error.error))?;
-        Ok(())
+        let permissions = self.file.metadata().map(|m| m.permissions()).ok();
+        write_all(&self.path, &self.rows, permissions)
     }
+}
+
+/// The rows of a table without a header, or with several.
+fn parse(path: &Path, bytes: &[u8]) -> Result<Vec<Row>, TableError> {
+    let header = header();
+    let mut builder = csv::ReaderBuilder::new();
+    let reader = builder.has_headers(false).flexible(true).from_reader(bytes);
+    let mut rows = Vec::new();
+    for (i, record) in reader.into_records().enumerate() {
+        let broken = || TableError::Row {
+            path: path.to_owned(),
+            line: i + 1,
+        };
+        let record = record.map_err(|_| broken())?;
+        if record == header {
+            continue;
+        }
+        if record.len() != header.len() {
+            return Err(broken());
+        }
+        rows.push(Row(record));
+    }
+    Ok(rows)
+}
+
+/// Writes a whole table at once.
+fn write_all(
+    path: &Path,
+    rows: &[Row],
+    permissions: Option<Permissions>,
+) -> Result<(), TableError> {
+    let mut text = line_of(&header());
+    for row in rows {
+        text += &line_of(&row.0);
+    }
+    let parent = path.parent().filter(|p| *p != Path::new(""));
+    let write = || {
+        let mut builder = tempfile::Builder::new();
+        // As any new file; a temporary one is private by default.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut staged = builder.tempfile_in(parent.unwrap_or(Path::new(".")))?;
+        staged.write_all(text.as_bytes())?;
+        if let Some(permissions) = permissions {
+            staged.as_file().set_permissions(permissions)?;
+        }
+        staged.as_file().sync_all()?;
+        staged.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    };
+    write().map_err(|source| TableError::Io {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Makes one table of several, in the order of the models' names, as one survey would have made it. Returns its rows, and how many
+/// more were the same as one of them but for what depends on the machine.
+pub(super) fn merge(tables: &[PathBuf], output: &Path) -> Result<(Vec<Row>, usize), TableError> {
+    let (mut rows, mut known, mut repeated) =
+        (Vec::<Row>::new(), BTreeMap::<[String; 4], usize>::new(), 0);
+    let mut models = BTreeMap::<String, usize>::new();
+    let header = header();
+    let lasting: Vec<&str> = header.iter().filter(|name| !fleeting(name)).collect();
+    let begin = line_of(&header);
+    for path in tables {
+        let bytes = std::fs::read(path).map_err(|source| TableError::Io {
+            path: path.clone(),
+            source,
+        })?;
+        if !bytes.starts_with(begin.as_bytes()) {
+            return Err(TableError::Header { path: path.clone() });
+        }
+        if !bytes.ends_with(b"\n") {
+            return Err(TableError::Torn { path: path.clone() });
+        }
+        for row in parse(path, &bytes)? {
+            // All rows of a model are about the same bytes.
+            let of_model = models
+                .get(row.get("file"))
+                .map(|&i| (i, &["bytes", "hash"][..]));
+            let of_run = known.get(&row.key()).map(|&i| (i, &lasting[..]));
+            for (other, columns) in of_model.into_iter().chain(of_run) {
+                let place = |c: &&&str| {
+                    header
+                        .iter()
+                        .position(|name| name == **c)
+                        .expect("a column")
+                };
+                let differs = |c: &&&str| row.0[place(c)] != rows[other].0[place(c)];
+                if let Some(column) = columns.iter().find(differs) {
+                    return Err(TableError::Conflict {
+                        path: path.clone(),
+                        file: row.get("file").to_owned(),
+                        method: row.method(),
+                        column: (*column).to_owned(),
+                        this: row.0[place(&column)].to_owned(),
+                        other: rows[other].0[place(&column)].to_owned(),
+                    });
+                }
+            }
+            models
+                .entry(row.get("file").to_owned())
+                .or_insert(rows.len());
+            if of_run.is_some() {
+                repeated += 1;
+            } else {
+                known.insert(row.key(), rows.len());
+                rows.push(row);
+            }
+        }
+    }
+    rows.sort_by(|a, b| a.get("file").cmp(b.get("file")));
+    write_all(output, &rows, None)?;
+    Ok((rows, repeated))
+}
+
+/// Whether a column depends on the machine, so that two runs may differ in it.
+fn fleeting(column: &str) -> bool {
+    column.starts_with("seconds") || column == "peak_mib" || column == "system"
 }
 
 /// A finished run.

@@ -5,14 +5,13 @@
 
 use super::limits::{limit_memory, limit_processor, peak_mib};
 use super::method::{Algorithm, Steiner};
-use super::tetgen::{Tetgen, run_tetgen};
+use super::tetgen::run_tetgen;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 use std::io::{self, Read, Write as _};
 use std::path::Path;
-use std::process::Child;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::Instant;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::check::check;
@@ -98,7 +97,7 @@ impl Findings {
 }
 
 /// Another program that the worker waits for, so that it can be ended with the worker.
-pub(super) type Partner = Arc<Mutex<Option<Child>>>;
+pub(super) type Partner = Arc<tetflip::lab::process::Partner>;
 
 /// The whole process: what came of it is in the lines.
 pub(super) fn work(model: &Path, job: &Job) {
@@ -137,14 +136,7 @@ pub(super) fn work(model: &Path, job: &Job) {
         }
         Algorithm::Ours(insertion) => ours(&plc, insertion, job, &mut findings),
         Algorithm::TetgenCavity | Algorithm::TetgenFlip => {
-            let tetgen = Tetgen {
-                program: job.tetgen,
-                scratch: job.scratch.unwrap_or(Path::new(".")),
-                flips: job.algorithm == Algorithm::TetgenFlip,
-                keep_hull: job.keep_hull,
-                merge_coplanar: job.merge_coplanar,
-            };
-            run_tetgen(&plc, &tetgen, &partner, &mut findings)
+            run_tetgen(&plc, job, &partner, &mut findings)
         }
     };
     let foreign = job.algorithm.is_foreign();

@@ -5,17 +5,17 @@
 
 use super::Row as Ours;
 use crate::inputs::slab::Slab;
+use crate::measure::outcome;
 use crate::measure::sample::{median, minimum, rounded};
-use crate::rivals::{process, tetgen};
+use crate::rivals::process;
 use serde::Serialize;
-use std::path::Path;
 use std::time::Duration;
 use tetflip::exchange::Plc;
-use tetflip::format::{read_mesh, write_poly};
+use tetflip::lab::tetgen::{Files, Switches, figures};
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
-/// What tables call the modes, and TetGen's switches for them.
-pub const MODES: [(&str, &str); 2] = [("cavity", "-pcO0"), ("flips", "-pLcO0")];
+/// What tables call the modes, and whether they are flips.
+pub const MODES: [(&str, bool); 2] = [("cavity", false), ("flips", true)];
 
 /// Its flips take quadratic time: five seconds for 15 000 crossing tetrahedra. Scenes with more vertices are left out.
 const MOST_FOR_FLIPS: usize = 4500;
@@ -53,46 +53,50 @@ impl Row {
 /// Both modes in turns; `ours` are the rows of the experiment, of this scene and others.
 pub fn measure(program: &str, slab: Slab, ours: &[Ours], limit: Duration) -> Vec<Row> {
     let plc = slab.plc();
-    let Ok(directory) = tempfile::tempdir() else {
+    let files = tempfile::tempdir()
+        .ok()
+        .and_then(|d| Some((Files::write(&plc, d.path()).ok()?, d)));
+    let Some((files, _directory)) = files else {
         return Vec::new();
     };
-    let path = directory.path().join("scene.poly");
-    if write_poly(&path, &plc).is_err() {
-        return Vec::new();
-    }
-    let modes = MODES
-        .iter()
-        .filter(|(mode, _)| *mode == "cavity" || slab.vertices <= MOST_FOR_FLIPS);
-    let mut rows: Vec<Row> = Vec::new();
-    let mut seconds: Vec<Vec<f64>> = Vec::new();
-    for &(mode, switches) in modes.clone() {
-        rows.push(Row {
-            mode,
-            verified: verified(program, switches, &path, &plc, limit),
-            ..Row::of(slab, ours)
-        });
-        seconds.push(Vec::new());
+    let run = |flips, writes| {
+        let switches = Switches {
+            flips,
+            writes,
+            ..Switches::CAVITY
+        };
+        let input = files.input().to_string_lossy().into_owned();
+        process::run(program, &[switches.to_string(), input], limit)
+    };
+    let mut modes = MODES.to_vec();
+    modes.retain(|(_, flips)| !flips || slab.vertices <= MOST_FOR_FLIPS);
+    let mut rows: Vec<(Row, Vec<f64>)> = Vec::new();
+    for &(mode, flips) in &modes {
+        let verified = run(flips, true)
+            .ok
+            .then(|| verified(&files, &plc))
+            .flatten();
+        rows.push((
+            Row {
+                mode,
+                verified,
+                ..Row::of(slab, ours)
+            },
+            Vec::new(),
+        ));
     }
     for _ in 0..ROUNDS {
-        for (i, (_, switches)) in modes.clone().enumerate() {
-            let arguments = [
-                format!("{switches}NEF"),
-                path.to_string_lossy().into_owned(),
-            ];
-            let ran = process::run(program, &arguments, limit);
-            if let Some(figures) = tetgen::figures(&ran).filter(|_| ran.ok) {
-                seconds[i].extend(figures.polygon_seconds);
-                rows[i].tetrahedra = Some(figures.tetrahedra);
+        for ((row, seconds), &(_, flips)) in rows.iter_mut().zip(&modes) {
+            let ran = run(flips, false);
+            if let Some(figures) = figures(&ran.text).filter(|_| ran.ok) {
+                seconds.extend(figures.polygon_seconds);
+                row.tetrahedra = Some(figures.tetrahedra);
             }
         }
     }
-    for (row, seconds) in rows.iter_mut().zip(&seconds) {
+    for (row, seconds) in &mut rows {
         let ok = seconds.len() == ROUNDS;
-        row.outcome = if ok {
-            crate::measure::outcome::OK
-        } else {
-            "failed"
-        };
+        row.outcome = if ok { outcome::OK } else { "failed" };
         row.runs = seconds.len();
         row.median_seconds = median(seconds).filter(|_| ok).map(rounded);
         row.min_seconds = minimum(seconds).filter(|_| ok).map(rounded);
@@ -103,23 +107,26 @@ pub fn measure(program: &str, slab: Slab, ours: &[Ours], limit: Duration) -> Vec
         let ours = beside.and_then(Ours::seconds);
         row.ours_over_tetgen = ours.zip(row.median_seconds).map(|(a, b)| rounded(a / b));
     }
-    rows
+    rows.into_iter().map(|(row, _)| row).collect()
 }
 
 impl Row {
     /// A row that has its scene.
     fn of(slab: Slab, ours: &[Ours]) -> Row {
-        let row = Row {
-            seed: slab.seed,
-            vertices: slab.vertices,
-            half_height: slab.half_height,
+        let Slab {
+            vertices,
+            half_height,
+            seed,
+        } = slab;
+        let mut row = Row {
+            seed,
+            vertices,
+            half_height,
             ..Row::default()
         };
         let crossing = ours.iter().find(|r| row.is_beside(r));
-        Row {
-            crossing_tets: crossing.map_or(0, |r| r.scene.crossing_tets),
-            ..row
-        }
+        row.crossing_tets = crossing.map_or(0, |r| r.scene.crossing_tets);
+        row
     }
 
     /// Whether one of our rows is of the same scene.
@@ -137,7 +144,7 @@ pub fn text(rows: &[Row]) -> String {
         let ratio = median(&ratios).map_or("–".to_string(), |r| format!("{r:.3}"));
         text += &format!("  {mode:<7} {ratio} ({} scenes)\n", of_mode.len());
         for row in of_mode {
-            if row.outcome != crate::measure::outcome::OK || row.verified != Some(true) {
+            if row.outcome != outcome::OK || row.verified != Some(true) {
                 let verdict = match row.verified {
                     None => "no mesh",
                     Some(true) => "the CDT",
@@ -150,34 +157,18 @@ pub fn text(rows: &[Row]) -> String {
     text
 }
 
-/// Whether what it writes is the CDT; none if it writes nothing.
-fn verified(
-    program: &str,
-    switches: &str,
-    path: &Path,
-    plc: &Plc,
-    limit: Duration,
-) -> Option<bool> {
-    let arguments = [format!("{switches}Q"), path.to_string_lossy().into_owned()];
-    let ran = process::run(program, &arguments, limit);
-    let mesh = read_mesh(&path.with_file_name("scene.1.node")).ok();
+/// Whether what it has written is the CDT; none if it has written nothing.
+fn verified(files: &Files, plc: &Plc) -> Option<bool> {
     let options = VerifyOptions {
         domain: Domain::Hull,
         ..VerifyOptions::default()
     };
-    mesh.filter(|_| ran.ok)
-        .map(|mesh| verify(plc, &mesh, options).is_ok())
+    Some(verify(plc, &files.mesh().ok()?, options).is_ok())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const SLAB: Slab = Slab {
-        vertices: 30,
-        half_height: 0.01,
-        seed: 1,
-    };
 
     #[test]
     fn a_program_that_fails_has_rows() {
@@ -187,7 +178,20 @@ mod tests {
             ours.scene.seed,
             ours.scene.crossing_tets,
         ) = (30, 1, 90);
-        let rows = measure("/no/such/program", SLAB, &[ours], Duration::from_secs(1));
+        let measured = |vertices| {
+            let slab = Slab {
+                vertices,
+                half_height: 0.01,
+                seed: 1,
+            };
+            measure(
+                "/no/such/program",
+                slab,
+                std::slice::from_ref(&ours),
+                Duration::from_secs(1),
+            )
+        };
+        let rows = measured(30);
         assert_eq!(rows.len(), 2);
         for row in rows {
             assert_eq!(
@@ -196,15 +200,11 @@ mod tests {
             );
             assert_eq!((row.median_seconds, row.verified), (None, None));
         }
-    }
-
-    #[test]
-    fn its_flips_are_spared_large_scenes() {
-        let slab = Slab {
-            vertices: MOST_FOR_FLIPS + 1,
-            ..SLAB
-        };
-        let rows = measure("/no/such/program", slab, &[], Duration::from_secs(1));
-        assert_eq!(rows.iter().map(|r| r.mode).collect::<Vec<_>>(), ["cavity"]);
+        // Its flips are spared large scenes.
+        let modes: Vec<&str> = measured(MOST_FOR_FLIPS + 1)
+            .iter()
+            .map(|r| r.mode)
+            .collect();
+        assert_eq!(modes, ["cavity"]);
     }
 }

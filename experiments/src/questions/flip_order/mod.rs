@@ -19,10 +19,12 @@ pub mod replay;
 mod row;
 
 use crate::families::{FAMILIES, Member};
-use crate::frame::{About, Answer, Context, Experiment, Failed};
+use crate::frame::record::{Results, csv_text};
+use crate::frame::{About, Answer, Context, Experiment, Failed, join};
 use crate::pictures::plot::{Plot, PlotError, Scale, Series};
 use plan::Plan;
 use row::{ALL, Summary};
+use std::path::PathBuf;
 
 /// The question.
 pub struct FlipOrder;
@@ -38,7 +40,8 @@ impl Experiment for FlipOrder {
 
     fn run(&self, context: &Context) -> Result<Answer, Failed> {
         let plan = context.plan(Plan::quick, Plan::full);
-        let members = Member::all(plan.seeds);
+        let mut members = Member::all(plan.seeds);
+        members.retain(|m| context.shard.is_none_or(|shard| shard.has(&m.to_string())));
         let mut inputs =
             context.measure_on_all_processors(&members, |&member| measure::measure(member, &plan));
         inputs.sort_by_key(|m| m.member.key());
@@ -53,10 +56,46 @@ impl Experiment for FlipOrder {
             failures.len()
         ));
         answer.csv("flip_order", &rows, "")?;
-        answer.csv("flip_order-failures", &failures, "")?;
-        answer.file("flip_order-precision.svg", &precision(&rows)?)?;
+        // A shard may have none, and has no plot.
+        if context.shard.is_none() || !failures.is_empty() {
+            answer.csv("flip_order-failures", &failures, "")?;
+        }
+        if context.shard.is_none() {
+            answer.file("flip_order-precision.svg", &precision(&rows)?)?;
+        }
         answer.expectations = expect::expectations(&inputs);
         Ok(answer)
+    }
+
+    fn join(&self, shards: &[PathBuf], results: &Results) -> Result<Vec<PathBuf>, Failed> {
+        let failed = |shard: &&PathBuf| shard.join("flip_order-failures.csv").exists();
+        let failed: Vec<PathBuf> = shards.iter().filter(failed).cloned().collect();
+        let failures = join::read(&failed, "flip_order-failures")?;
+        let mut all = failures.first().ok_or("no shard has a failure")?.clone();
+        all.cells = failures.into_iter().flat_map(|sheet| sheet.cells).collect();
+        // All runs of one input are in one shard, in the order of the plan.
+        all.cells
+            .sort_by_cached_key(|row| row[0].parse::<Member>().map(|m| m.key()).ok());
+        let rate = |count: &dyn Fn(&str) -> u64| {
+            let rate = row::failure_rate(count("inputs") - count("ok"), count("inputs"));
+            csv_text(&[rate]).expect("a number").trim_end().to_string()
+        };
+        let keys = ["family", "subfamily", "times", "precision"];
+        let parts = join::read(shards, "flip_order")?;
+        let mut rows = join::added(&parts, &keys, &["longest_list"], ("failure_rate", &rate))?;
+        rows.cells.sort_by_cached_key(|row| {
+            let family = FAMILIES.iter().position(|f| f.name == row[0]);
+            let subfamilies = family.map_or(&[][..], |f| FAMILIES[f].subfamilies);
+            (
+                family,
+                subfamilies.iter().position(|s| *s == row[1]),
+                plan::place(&row[2]),
+            )
+        });
+        Ok(vec![
+            results.text("flip_order.csv", &rows.to_csv())?,
+            results.text("flip_order-failures.csv", &all.to_csv())?,
+        ])
     }
 }
 

@@ -75,3 +75,10 @@ pub fn precision(times: FlipOrder) -> Option<u32> {
         _ => None,
     }
 }
+
+/// The place of a number type in the order of tables.
+pub fn place(times: &str) -> Option<usize> {
+    number_types()
+        .iter()
+        .position(|n| n.times.to_string() == times)
+}

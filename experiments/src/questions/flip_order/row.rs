@@ -165,9 +165,14 @@ fn summary(
             row.add(input, run);
         }
     }
-    let rate = row.failures() as f64 / row.inputs.max(1) as f64;
-    row.failure_rate = (rate * 1e6).round() / 1e6;
+    row.failure_rate = failure_rate(row.failures(), row.inputs);
     row
+}
+
+/// The part of the inputs that failed, in millionths.
+pub fn failure_rate(failures: u64, inputs: u64) -> f64 {
+    let rate = failures as f64 / inputs.max(1) as f64;
+    (rate * 1e6).round() / 1e6
 }
 
 /// `flip_order-failures.csv`: one run that did not end in the CDT.

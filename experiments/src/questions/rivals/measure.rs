@@ -5,9 +5,9 @@ use super::row::Row;
 use crate::measure::outcome;
 use crate::measure::sample::{median, minimum, rounded};
 use crate::rivals::contestant::{Contestant, Ours};
-use crate::rivals::process::{Ran, number_after, run};
-use crate::rivals::tetgen::{self, Figures};
+use crate::rivals::process::{Ran, run};
 use std::time::Duration;
+use tetflip::lab::tetgen::{Figures, Switches, figures, number_after};
 
 const HXT: &str = include_str!("../../rivals/hxt.py");
 
@@ -52,8 +52,14 @@ fn once(contestant: &Contestant, files: &Files, limit: Duration) -> (Option<Figu
             (of_ours(&ran), ran)
         }
         Contestant::TetGen { program, .. } => {
-            let ran = run(program, &[tetgen::switches(files.facets > 0), path], limit);
-            (tetgen::figures(&ran).filter(|_| ran.ok), ran)
+            let facets = files.facets > 0;
+            let switches = Switches {
+                facets,
+                writes: false,
+                ..Switches::CAVITY
+            };
+            let ran = run(program, &[switches.to_string(), path], limit);
+            (figures(&ran.text).filter(|_| ran.ok), ran)
         }
         Contestant::Hxt {
             python, threads, ..
