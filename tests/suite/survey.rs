@@ -289,24 +289,112 @@ fn a_killed_survey_is_completed() {
     assert_eq!(lasting(&place.rows("k.csv")), expected);
 }
 
+/// A table without what depends on the clock and the machine, as text: header, order and all.
+fn lasting_text(path: &Path) -> String {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .from_path(path)
+        .expect("a table");
+    let records: Vec<csv::StringRecord> = reader.records().map(|r| r.expect("a row")).collect();
+    let fleeting =
+        |i: &usize| records[0][*i].starts_with("seconds") || &records[0][*i] == "peak_mib";
+    let kept: Vec<usize> = (0..records[0].len()).filter(|i| !fleeting(i)).collect();
+    let line = |r: &csv::StringRecord| kept.iter().map(|&i| &r[i]).collect::<Vec<_>>().join("\t");
+    records.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
 #[test]
-fn the_tables_of_all_shards_are_the_table() {
+fn the_merged_tables_of_all_shards_are_the_table() {
     let place = Place::new();
-    place.surveys(&["models", "-o", "t.csv", "--methods=flip"]);
-    let expected = lasting(&place.rows("t.csv"));
-    let mut together = Vec::new();
+    let methods = "--methods=flip,cavity";
+    let output = place.survey(&["models", "-o", "t.csv", methods, "--quiet"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(
+        said,
+        "note[skipped-files]: 1 file is no model and skipped: 1 .txt\n"
+    );
+    let expected = lasting_text(&place.path("t.csv"));
     for shard in ["1/3", "2/3", "3/3"] {
         let name = format!("{}.csv", &shard[..1]);
-        place.surveys(&["models", "-o", &name, "--methods=flip", "--shard", shard]);
-        assert!(place.rows(&name).len() < expected.len(), "{shard}");
-        together.extend(std::fs::read(place.path(&name)).expect("a part"));
+        place.surveys(&["models", "-o", &name, methods, "--shard", shard]);
+        assert!(
+            place.rows(&name).len() < place.rows("t.csv").len(),
+            "{shard}"
+        );
     }
-    std::fs::write(place.path("all.csv"), together).expect("it is written");
-    let before = std::fs::metadata(place.path("models")).expect("it is there");
-    assert!(before.is_dir());
-    let said = place.surveys(&["models", "-o", "all.csv", "--methods=flip"]);
+    let said = place.surveys(&["--merge", "3.csv", "1.csv", "2.csv", "-o", "all.csv"]);
     assert!(said.starts_with("method"), "{said}");
-    assert_eq!(lasting(&place.rows("all.csv")), expected);
+    assert_eq!(lasting_text(&place.path("all.csv")), expected);
+    // What is merged is a table like any other, and what it has already is noted.
+    place.surveys(&["models", "-o", "all.csv", methods]);
+    let output = place.survey(&["--merge", "all.csv", "1.csv", "-o", "again.csv", "--quiet"]);
+    assert!(
+        String::from_utf8_lossy(&output.stderr).starts_with("note[repeated-rows]: "),
+        "{output:?}"
+    );
+    assert_eq!(lasting_text(&place.path("again.csv")), expected);
+}
+
+#[test]
+fn tables_that_do_not_belong_together_are_refused() {
+    let place = Place::new();
+    place.surveys(&["models/good", "-o", "a.csv", "--methods=flip"]);
+    let table = std::fs::read_to_string(place.path("a.csv")).expect("a table");
+    let refuses = |other: &str, output: &str, part: &str| {
+        std::fs::write(place.path("b.csv"), other).expect("a file");
+        let refused = place.survey(&["--merge", "a.csv", "b.csv", "-o", output]);
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{said}");
+        assert!(said.contains(part), "{said}");
+        assert!(!place.path("all.csv").exists());
+    };
+    let other = table.replacen(",ok,", ",refused,", 1);
+    refuses(&other, "all.csv", "outcome is `refused`, not `ok`");
+    refuses(
+        &table[..table.len() - 1],
+        "all.csv",
+        "its last line is torn",
+    );
+    refuses("a,b\n1,2\n", "all.csv", "not the table of a survey");
+    refuses(&table, "a.csv", "is an input and would be overwritten");
+    let two = place.survey(&["models", "models", "-o", "all.csv"]);
+    assert_eq!(two.status.code(), Some(2));
+}
+
+#[test]
+fn every_format_is_a_model() {
+    let place = Place::new();
+    let models = place.path("formats");
+    std::fs::create_dir(&models).expect("a directory");
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    let node = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
+    for (name, text) in [
+        ("a.obj", obj),
+        ("points.node", node),
+        ("rooms.poly", ROOMS),
+        ("rooms.node", node),
+    ] {
+        std::fs::write(models.join(name), text).expect("a file");
+    }
+    let output = place.survey(&[
+        "formats",
+        "-o",
+        "t.csv",
+        "--methods=cavity",
+        "--quiet",
+        "--hull",
+    ]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(
+        said,
+        "note[skipped-files]: 1 file is no model and skipped: 1 .node of another file\n"
+    );
+    let rows = place.rows("t.csv");
+    let outcomes: Vec<_> = rows.iter().map(|r| (&*r["file"], &*r["outcome"])).collect();
+    assert_eq!(
+        outcomes,
+        [("a.obj", "ok"), ("points.node", "ok"), ("rooms.poly", "ok")]
+    );
 }
 
 #[test]

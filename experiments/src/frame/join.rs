@@ -42,6 +42,9 @@ fn read_one(path: &Path) -> Result<Sheet, SheetError> {
     Sheet::parse(&path.to_string_lossy(), &text)
 }
 
+/// What a column is, given the counts of the others.
+pub type Compute<'a> = &'a dyn Fn(&dyn Fn(&str) -> u64) -> String;
+
 /// Adds up the rows that have the same in all `keys`, in order of appearance: of the columns of `greatest` the greatest, of all others
 /// the sum, nothing if a part has nothing. What is neither a key nor a count is `computed` anew.
 ///
@@ -51,7 +54,7 @@ pub fn added(
     shards: &[Sheet],
     keys: &[&str],
     greatest: &[&str],
-    computed: (&str, &dyn Fn(&dyn Fn(&str) -> u64) -> String),
+    computed: (&str, Compute),
 ) -> Result<Sheet, SheetError> {
     let header = &shards[0].header;
     let is_key = |column: &str| keys.contains(&column) || column == "commit";

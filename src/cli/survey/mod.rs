@@ -5,6 +5,7 @@
 //! depends on the order, except seconds and memory.
 
 mod limits;
+mod merge;
 mod method;
 mod models;
 mod run;
@@ -189,7 +190,7 @@ fn merge(tables: &[PathBuf], output: &Path, quiet: bool) -> Result<(), Stop> {
             table.display()
         )));
     }
-    let (rows, repeated) = table::merge(tables, output).map_err(Stop::input)?;
+    let (rows, repeated) = merge::merge(tables, output).map_err(Stop::input)?;
     if repeated > 0 {
         let text = format!(
             "{repeated} rows are in several tables, the same but for seconds and memory: the first counts"

@@ -72,20 +72,13 @@ pub(super) enum TableError {
     Row { path: PathBuf, line: usize },
     #[error("{}: its last line is torn; complete it by the survey that made it", .path.display())]
     Torn { path: PathBuf },
-    #[error("{}: {file} {method} contradicts another table: {column} is `{this}`, not `{other}`", .path.display())]
-    Conflict {
-        path: PathBuf,
-        file: String,
-        method: String,
-        column: String,
-        this: String,
-        other: String,
-    },
+    #[error("{} contradicts another table: {row}", .path.display())]
+    Conflict { path: PathBuf, row: String },
 }
 
 /// A row, with its columns by name.
 #[derive(Clone, Debug)]
-pub(super) struct Row(StringRecord);
+pub(super) struct Row(pub StringRecord);
 
 impl Row {
     /// The word in a column of [`COLUMNS`].
@@ -95,7 +88,7 @@ impl Row {
     }
 
     /// What tells it apart: the model and the method.
-    fn key(&self) -> [String; 4] {
+    pub(super) fn key(&self) -> [String; 4] {
         ["file", "insertion", "times", "steiner"].map(|c| self.get(c).to_owned())
     }
 
@@ -249,7 +242,7 @@ impl Table {
 }
 
 /// The rows of a table without a header, or with several.
-fn parse(path: &Path, bytes: &[u8]) -> Result<Vec<Row>, TableError> {
+pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Vec<Row>, TableError> {
     let header = header();
     let mut builder = csv::ReaderBuilder::new();
     let reader = builder.has_headers(false).flexible(true).from_reader(bytes);
@@ -272,7 +265,7 @@ fn parse(path: &Path, bytes: &[u8]) -> Result<Vec<Row>, TableError> {
 }
 
 /// Writes a whole table at once.
-fn write_all(
+pub(super) fn write_all(
     path: &Path,
     rows: &[Row],
     permissions: Option<Permissions>,
@@ -302,72 +295,6 @@ fn write_all(
     })
 }
 
-/// Makes one table of several, in the order of the models' names, as one survey would have made it. Returns its rows, and how many
-/// more were the same as one of them but for what depends on the machine.
-pub(super) fn merge(tables: &[PathBuf], output: &Path) -> Result<(Vec<Row>, usize), TableError> {
-    let (mut rows, mut known, mut repeated) =
-        (Vec::<Row>::new(), BTreeMap::<[String; 4], usize>::new(), 0);
-    let mut models = BTreeMap::<String, usize>::new();
-    let header = header();
-    let lasting: Vec<&str> = header.iter().filter(|name| !fleeting(name)).collect();
-    let begin = line_of(&header);
-    for path in tables {
-        let bytes = std::fs::read(path).map_err(|source| TableError::Io {
-            path: path.clone(),
-            source,
-        })?;
-        if !bytes.starts_with(begin.as_bytes()) {
-            return Err(TableError::Header { path: path.clone() });
-        }
-        if !bytes.ends_with(b"\n") {
-            return Err(TableError::Torn { path: path.clone() });
-        }
-        for row in parse(path, &bytes)? {
-            // All rows of a model are about the same bytes.
-            let of_model = models
-                .get(row.get("file"))
-                .map(|&i| (i, &["bytes", "hash"][..]));
-            let of_run = known.get(&row.key()).map(|&i| (i, &lasting[..]));
-            for (other, columns) in of_model.into_iter().chain(of_run) {
-                let place = |c: &&&str| {
-                    header
-                        .iter()
-                        .position(|name| name == **c)
-                        .expect("a column")
-                };
-                let differs = |c: &&&str| row.0[place(c)] != rows[other].0[place(c)];
-                if let Some(column) = columns.iter().find(differs) {
-                    return Err(TableError::Conflict {
-                        path: path.clone(),
-                        file: row.get("file").to_owned(),
-                        method: row.method(),
-                        column: (*column).to_owned(),
-                        this: row.0[place(&column)].to_owned(),
-                        other: rows[other].0[place(&column)].to_owned(),
-                    });
-                }
-            }
-            models
-                .entry(row.get("file").to_owned())
-                .or_insert(rows.len());
-            if of_run.is_some() {
-                repeated += 1;
-            } else {
-                known.insert(row.key(), rows.len());
-                rows.push(row);
-            }
-        }
-    }
-    rows.sort_by(|a, b| a.get("file").cmp(b.get("file")));
-    write_all(output, &rows, None)?;
-    Ok((rows, repeated))
-}
-
-/// Whether a column depends on the machine, so that two runs may differ in it.
-fn fleeting(column: &str) -> bool {
-    column.starts_with("seconds") || column == "peak_mib" || column == "system"
-}
-
 /// A finished run.
 #[derive(Clone, Debug)]
 pub(super) struct Run<'a> {
@@ -386,7 +313,7 @@ fn key(model: &Model, method: Method) -> [String; 4] {
 }
 
 /// The columns, then the numbers of the report with the names that they have in its JSON file.
-fn header() -> StringRecord {
+pub(super) fn header() -> StringRecord {
     let mut header: StringRecord = COLUMNS.iter().copied().collect();
     for (name, _) in leaves(&Report::default()) {
         header.push_field(&name);
@@ -489,7 +416,7 @@ fn leaves(report: &Report) -> Vec<(String, Value)> {
     list
 }
 
-fn line_of(record: &StringRecord) -> String {
+pub(super) fn line_of(record: &StringRecord) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(record).expect("writing to memory");
     let bytes = writer.into_inner().expect("writing to memory");
