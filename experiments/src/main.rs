@@ -1,4 +1,5 @@
-//! Runs the experiments, each in a process of its own, so that none takes down or warms up another, and tells how far it is.
+//! Runs the experiments, each in a process of its own, so that none takes down or warms up another, and tells how far
+//! it is.
 
 use clap::{Parser, Subcommand};
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
-//! The list of all experiments. A new one gets a module in [`crate::questions`], a line here, a section in [`crate::page`] and a
-//! chapter in the README of this package.
+//! The list of all experiments. A new one gets a module in [`crate::questions`], a line here, a section in
+//! [`crate::page`] and a chapter in the README of this package.
 
 use crate::frame::Experiment;
 use crate::questions::*;

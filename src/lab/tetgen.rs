@@ -1,5 +1,5 @@
-//! TetGen as another program (versions 1.5 and 1.6): its switches, its files, and what it says. It gets a PLC in its own
-//! format; its mesh is read back. The only place that knows how it is called.
+//! TetGen as another program (versions 1.5 and 1.6): its switches, its files, and what it says. It gets a PLC in its
+//! own format; its mesh is read back. The only place that knows how it is called.
 
 use super::process::Ran;
 use crate::exchange::{ExportedMesh, Plc};
@@ -12,7 +12,8 @@ use std::process::Command;
 /// What is asked of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Switches {
-    /// Whether there are facets: a CDT, without optimization afterwards; else the Delaunay tetrahedralization of points.
+    /// Whether there are facets: a CDT, without optimization afterwards; else the Delaunay tetrahedralization of
+    /// points.
     pub facets: bool,
     /// Polygons by flips instead of cavities.
     pub flips: bool,
@@ -89,8 +90,8 @@ impl Files {
         read_mesh(&self.output("node"))
     }
 
-    /// How many vertices of the output are not those of the PLC, if there is an output. Programs write fewer digits than there
-    /// are; duplicates and unused vertices of the input may be missing.
+    /// How many vertices of the output are not those of the PLC, if there is an output. Programs write fewer digits
+    /// than there are; duplicates and unused vertices of the input may be missing.
     pub fn new_vertices(&self, plc: &Plc) -> Option<usize> {
         let key = |p: &[f64; 3]| p.map(|x| format!("{:.12e}", x + 0.0));
         let known: HashSet<[String; 3]> = plc.vertices.iter().map(key).collect();
@@ -146,7 +147,8 @@ pub fn number_after(text: &str, heading: &str) -> Option<f64> {
     word.trim_end_matches([',', ')', 's']).parse().ok()
 }
 
-/// How a run ended that was no success: the words of the columns `outcome` and `kind` of a survey. Its exit statuses (TetGen
+/// How a run ended that was no success: the words of the columns `outcome` and `kind` of a survey. Its exit statuses
+/// (TetGen
 /// 1.5): 1 out of memory, 2 a bug, 3 self-intersection, 4 and 5 features below its tolerance, 10 bad input.
 pub fn failure(ran: &Ran) -> (&'static str, String) {
     let Some(status) = ran.status else {

@@ -1,14 +1,15 @@
 //! How far the order in which flips came off a queue is from the true one.
 //!
 //! # What is counted
-//! The sequence of an insertion is that of the events that came off the queue *alive*: with both tetrahedra in place, flipped
-//! then or not. Events whose triangle was gone are left out: their order changes nothing; so are flips from the list L and
-//! those of non-crossing triangles, which have no turn of their own. In exact order an event that is queued by a flip is never
-//! earlier than that flip, so the sequence is sorted by the exact times (with the perturbation), although the queue grows
-//! meanwhile. The pairs that are not in that order are therefore a measure of disorder: 0 for exact times, always.
+//! The sequence of an insertion is that of the events that came off the queue *alive*: with both tetrahedra in place,
+//! flipped then or not. Events whose triangle was gone are left out: their order changes nothing; so are flips from the
+//! list L and those of non-crossing triangles, which have no turn of their own. In exact order an event that is queued
+//! by a flip is never earlier than that flip, so the sequence is sorted by the exact times (with the perturbation),
+//! although the queue grows meanwhile. The pairs that are not in that order are therefore a measure of disorder: 0 for
+//! exact times, always.
 //!
-//! Two events are *tied* if their times are equal without the perturbation, and they are not one event (two triangles of one
-//! 4-4 flip, or one triangle twice).
+//! Two events are *tied* if their times are equal without the perturbation, and they are not one event (two triangles
+//! of one 4-4 flip, or one triangle twice).
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -82,8 +83,8 @@ pub struct Disorder {
     pub kendall: u64,
     /// Events tied with their predecessor in the exact order.
     pub exact_ties: u64,
-    /// Events whose rounded time is that of their predecessor in rounded order, though they are not one event; `None` of a
-    /// number type that this experiment cannot ask.
+    /// Events whose rounded time is that of their predecessor in rounded order, though they are not one event; `None`
+    /// of a number type that this experiment cannot ask.
     pub rounded_ties: Option<u64>,
     /// The greatest length of the list L.
     pub longest_list: u64,
@@ -130,8 +131,8 @@ pub fn is_left<P: PointStore>(points: &P, [a, b, c]: [VertexId; 3], v: VertexId)
     points.orient3d([a, b, c, v]).is_positive()
 }
 
-/// The place, from 1, of each event that came off the queue alive in the exact order; none for one that exact numbers would never
-/// have queued.
+/// The place, from 1, of each event that came off the queue alive in the exact order; none for one that exact numbers
+/// would never have queued.
 pub fn exact_ranks<P: PointStore>(points: &P, insertion: &Insertion) -> Vec<Option<usize>> {
     let left = |v| is_left(points, insertion.frame, v);
     let motion = PolygonMotion::new(points, insertion.frame, &left);
@@ -149,8 +150,9 @@ pub fn exact_ranks<P: PointStore>(points: &P, insertion: &Insertion) -> Vec<Opti
     ranks
 }
 
-/// The disorder of an insertion whose queue was ordered by `times`. O(n log n) exact comparisons for n different circuits:
-/// without exact predicates flips can go around in circles, and then the same few come off the queue again and again.
+/// The disorder of an insertion whose queue was ordered by `times`. O(n log n) exact comparisons for n different
+/// circuits: without exact predicates flips can go around in circles, and then the same few come off the queue again
+/// and again.
 pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: FlipOrder) -> Disorder {
     let left = |v| is_left(points, insertion.frame, v);
     let motion = PolygonMotion::new(points, insertion.frame, &left);
@@ -189,8 +191,9 @@ pub fn disorder<P: PointStore>(points: &P, insertion: &Insertion, times: FlipOrd
     }
 }
 
-/// The place of each circuit in the exact order, equal for those that are one event; none for one that exact numbers would
-/// never have queued. And how many places have the time of the one before them, which the perturbation alone tells apart.
+/// The place of each circuit in the exact order, equal for those that are one event; none for one that exact numbers
+/// would never have queued. And how many places have the time of the one before them, which the perturbation alone
+/// tells apart.
 fn places<P: PointStore>(
     exact: &mut ExactTimes<P, Dyadic>,
     circuits: &[Circuit],
@@ -272,7 +275,8 @@ fn list_lengths(insertion: &Insertion) -> (u64, u64) {
     (longest, length)
 }
 
-/// Merge sort, which is stable, and the number of pairs that were not in order: Kendall's distance between the two orders.
+/// Merge sort, which is stable, and the number of pairs that were not in order: Kendall's distance between the two
+/// orders.
 pub fn sort_counting_inversions<T: Copy>(
     items: &mut [T],
     compare: &mut dyn FnMut(T, T) -> Ordering,

@@ -1,18 +1,18 @@
 //! What stuck flips have left: is it a polyhedron that has no tetrahedralization, like Schönhardt's (1928)?
 //!
 //! # The question
-//! The crossing tetrahedra that are left form connected polyhedra P, bounded by triangles none of which crosses the polygon
-//! f. To finish, P must be filled anew with tetrahedra that do not cross f, without new vertices; then f cuts it in halves.
-//! If P has no such tetrahedralization then flips inside P cannot help. If already one half has none, and has six vertices and the
-//! boundary of an octahedron, then that half is Schönhardt's polyhedron up to isomorphism.
+//! The crossing tetrahedra that are left form connected polyhedra P, bounded by triangles none of which crosses the
+//! polygon f. To finish, P must be filled anew with tetrahedra that do not cross f, without new vertices; then f cuts
+//! it in halves. If P has no such tetrahedralization then flips inside P cannot help. If already one half has none, and
+//! has six vertices and the boundary of an octahedron, then that half is Schönhardt's polyhedron up to isomorphism.
 //!
 //! # The search
-//! Boundary triangles are oriented inwards. A set of positive tetrahedra whose inward triangles cancel in pairs of opposite
-//! orientation, but for those of the boundary, covers every point of space outside their triangles as often as the boundary
-//! winds around it: once inside P, never outside. Positive tetrahedra that cover P once fill it without overlap. So no
-//! intersection need ever be computed: take a triangle that still needs a tetrahedron, try every apex, and go on; each oriented
-//! triangle may be used once. The search is exhaustive, exponential in the worst case, and gives up after a given number
-//! of trials.
+//! Boundary triangles are oriented inwards. A set of positive tetrahedra whose inward triangles cancel in pairs of
+//! opposite orientation, but for those of the boundary, covers every point of space outside their triangles as often as
+//! the boundary winds around it: once inside P, never outside. Positive tetrahedra that cover P once fill it without
+//! overlap. So no intersection need ever be computed: take a triangle that still needs a tetrahedron, try every apex,
+//! and go on; each oriented triangle may be used once. The search is exhaustive, exponential in the worst case, and
+//! gives up after a given number of trials.
 
 use crate::flips::order::Insertion;
 use std::collections::{BTreeMap, BTreeSet};
@@ -177,8 +177,8 @@ fn classify<P: PointStore>(points: &P, sides: &Sides, tets: Vec<Tet>) -> Piece {
     }
 }
 
-/// The half of a polyhedron on one side of f, if it has no tetrahedralization: its vertices and its triangles on that side, and
-/// whether its boundary is that of an octahedron.
+/// The half of a polyhedron on one side of f, if it has no tetrahedralization: its vertices and its triangles on that
+/// side, and whether its boundary is that of an octahedron.
 fn locked_half<P: PointStore>(
     points: &P,
     sides: &Sides,
@@ -207,8 +207,8 @@ fn locked_half<P: PointStore>(
         .then(|| ((vertices.len(), half.len()), closes_to_octahedron(&half)))
 }
 
-/// Whether triangles, with one triangle or two more that close them, are the boundary of an octahedron: eight in all, four at
-/// each of six vertices.
+/// Whether triangles, with one triangle or two more that close them, are the boundary of an octahedron: eight in all,
+/// four at each of six vertices.
 fn closes_to_octahedron(half: &[Inward]) -> bool {
     let edges: BTreeSet<[VertexId; 2]> = half.iter().flat_map(edges_of).collect();
     let open: BTreeMap<VertexId, VertexId> = edges

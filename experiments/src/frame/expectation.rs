@@ -49,8 +49,8 @@ pub fn text(expectations: &[Expectation]) -> String {
 #[cfg(test)]
 pub type Change<'a, Row> = (&'a dyn Fn(&mut Row), &'a [usize]);
 
-/// Asserts that good rows break nothing, that each change of the last one breaks just what is said, and that every expectation is
-/// broken by some change: one that cannot fail says nothing.
+/// Asserts that good rows break nothing, that each change of the last one breaks just what is said, and that every
+/// expectation is broken by some change: one that cannot fail says nothing.
 ///
 /// # Panics
 /// If not.

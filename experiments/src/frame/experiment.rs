@@ -169,8 +169,8 @@ impl Answer {
         self.text += "\n";
     }
 
-    /// Writes `STEM.csv`: the rows, each with the commit of the sources as its last column. Those of its columns that are
-    /// named, with spaces between them, are shown to people, too.
+    /// Writes `STEM.csv`: the rows, each with the commit of the sources as its last column. Those of its columns that
+    /// are named, with spaces between them, are shown to people, too.
     ///
     /// # Errors
     /// If there are no rows, if they are no CSV, or if the file cannot be written.

@@ -1,5 +1,5 @@
-//! The tables of several shards as one. Counts are added up exactly, so that the joined table is the one that a single machine
-//! would have made.
+//! The tables of several shards as one. Counts are added up exactly, so that the joined table is the one that a single
+//! machine would have made.
 
 use super::sheet::{Sheet, SheetError};
 use std::path::{Path, PathBuf};
@@ -45,8 +45,9 @@ fn read_one(path: &Path) -> Result<Sheet, SheetError> {
 /// What a column is, given the counts of the others.
 pub type Compute<'a> = &'a dyn Fn(&dyn Fn(&str) -> u64) -> String;
 
-/// Adds up the rows that have the same in all `keys`, in order of appearance: of the columns of `greatest` the greatest, of all others
-/// the sum, nothing if a part has nothing. What is neither a key nor a count is `computed` anew.
+/// Adds up the rows that have the same in all `keys`, in order of appearance: of the columns of `greatest` the
+/// greatest, of all others the sum, nothing if a part has nothing. What is neither a key nor a count is `computed`
+/// anew.
 ///
 /// # Errors
 /// If a cell is no count.

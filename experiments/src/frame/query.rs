@@ -1,13 +1,13 @@
 //! What is asked of the rows of a CSV file, as text: which rows, and what of them.
 //!
-//! *Which rows*: conditions with commas between them, `times=f64, crossing_from>0`. The operators are `=`, `!=`, `<`, `<=`, `>`
-//! and `>=`; numbers are compared as numbers, other words with `=` and `!=` alone; `bits:*` are the words that begin so;
-//! `@inputs` is what the column `inputs` of the row holds; nothing after `=` is an empty cell.
+//! *Which rows*: conditions with commas between them, `times=f64, crossing_from>0`. The operators are `=`, `!=`, `<`,
+//! `<=`, `>` and `>=`; numbers are compared as numbers, other words with `=` and `!=` alone; `bits:*` are the words
+//! that begin so; `@inputs` is what the column `inputs` of the row holds; nothing after `=` is an empty cell.
 //!
-//! *What of them*: arithmetic of columns within an aggregate, and arithmetic of aggregates: `sum(inputs - ok) / sum(inputs)`.
-//! Aggregates are `sum`, `least`, `most`, `median`, `first`, `last`, `only` (of exactly one row) and `distinct`; they may choose
-//! among the rows, `sum[times=f64](queued)`, and skip empty cells, `sum?(seconds)`. In a row there are also `abs` and `log2`;
-//! a comparison with `>` is 1 or 0.
+//! *What of them*: arithmetic of columns within an aggregate, and arithmetic of aggregates: `sum(inputs - ok) /
+//! sum(inputs)`. Aggregates are `sum`, `least`, `most`, `median`, `first`, `last`, `only` (of exactly one row) and
+//! `distinct`; they may choose among the rows, `sum[times=f64](queued)`, and skip empty cells, `sum?(seconds)`. In a
+//! row there are also `abs` and `log2`; a comparison with `>` is 1 or 0.
 
 use super::sheet::{Row, Sheet, SheetError};
 use crate::measure::sample::median;

@@ -1,4 +1,5 @@
-//! Results on disk: CSV rows and text. A file is complete or it is not there: it is written under a temporary name and renamed.
+//! Results on disk: CSV rows and text. A file is complete or it is not there: it is written under a temporary name and
+//! renamed.
 
 use super::machine::Machine;
 use serde::Serialize;

@@ -3,8 +3,8 @@
 use crate::measure::sample::{median, minimum};
 use serde::Serialize;
 
-/// Makes CSV of a row whose fields are groups of columns: all of their columns, in this order. (serde's `flatten` makes maps, of
-/// which CSV knows nothing.)
+/// Makes CSV of a row whose fields are groups of columns: all of their columns, in this order. (serde's `flatten` makes
+/// maps, of which CSV knows nothing.)
 #[macro_export]
 macro_rules! row_of_groups {
     ($row:ty: $($group:ident),+) => {

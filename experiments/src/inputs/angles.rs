@@ -1,5 +1,5 @@
-//! PLCs with small angles: what makes segment recovery insert points without end. Coordinates come from correctly rounded
-//! operations only, so that they are the same bits everywhere.
+//! PLCs with small angles: what makes segment recovery insert points without end. Coordinates come from correctly
+//! rounded operations only, so that they are the same bits everywhere.
 
 use crate::families::draw::Draw;
 use tetflip::exchange::{Facet, Plc, Segment};

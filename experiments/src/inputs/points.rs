@@ -1,5 +1,5 @@
-//! Point sets: easy ones, cospherical ones, and uneven ones. Coordinates come from correctly rounded operations only, so that
-//! they are the same bits everywhere.
+//! Point sets: easy ones, cospherical ones, and uneven ones. Coordinates come from correctly rounded operations only,
+//! so that they are the same bits everywhere.
 
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;

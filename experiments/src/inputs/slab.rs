@@ -3,10 +3,10 @@
 //!
 //! The paper says no more; our reading of it: the vertices are uniform in the slab [−1, 1]² × [−h, h] without z = 0,
 //! and the rectangle is [−5/4, 5/4] × [−9/8, 9/8]. Each edge of the rectangle is an edge of the convex hull of all
-//! vertices (no other vertex lies on the vertical plane through it), so the Delaunay tetrahedralization has all four and
-//! the rectangle can be inserted without a Steiner point. Every tetrahedron with vertices on both sides of the plane
-//! crosses the rectangle; there are about 3.3 n of them where h ≤ 1/10 (counted for n = 50 … 800), fewer in a thicker
-//! slab.
+//! vertices (no other vertex lies on the vertical plane through it), so the Delaunay tetrahedralization has all four
+//! and the rectangle can be inserted without a Steiner point. Every tetrahedron with vertices on both sides of the
+//! plane crosses the rectangle; there are about 3.3 n of them where h ≤ 1/10 (counted for n = 50 … 800), fewer in a
+//! thicker slab.
 
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -35,8 +35,8 @@ const HALF_HEIGHT: f64 = 0.01;
 const FLAT: f64 = 30_000.0;
 
 impl Slab {
-    /// The scene with about so many crossing tetrahedra. Large ones are as much flatter as their vertices are closer to each
-    /// other, because in a thick slab many tetrahedra do not cross the rectangle.
+    /// The scene with about so many crossing tetrahedra. Large ones are as much flatter as their vertices are closer to
+    /// each other, because in a thick slab many tetrahedra do not cross the rectangle.
     pub fn crossing(about: u64) -> Slab {
         let n = about as f64 / 3.3;
         let half_height = HALF_HEIGHT * (FLAT / n).sqrt().min(1.0);

@@ -8,8 +8,8 @@ use tetflip::recover::polygons::{FlipOrder, Insertion, NumberType};
 pub struct Method(pub Insertion);
 
 impl Method {
-    /// The ways to compare at all sizes, in the order of tables: cavity retriangulation, then flips with each number type
-    /// that this build has. Gift wrapping takes quadratic time and is not among them.
+    /// The ways to compare at all sizes, in the order of tables: cavity retriangulation, then flips with each number
+    /// type that this build has. Gift wrapping takes quadratic time and is not among them.
     pub fn all() -> Vec<Method> {
         let times = [
             FlipOrder::new(NumberType::F32),

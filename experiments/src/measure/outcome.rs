@@ -27,8 +27,8 @@ pub fn word<T>(result: &Result<T, Failure>) -> &'static str {
     }
 }
 
-/// The column `left`: the crossing tetrahedra that stuck flips left, the faces that are not locally Delaunay, the inverted
-/// tetrahedra, or the displaced triangles of other polygons.
+/// The column `left`: the crossing tetrahedra that stuck flips left, the faces that are not locally Delaunay, the
+/// inverted tetrahedra, or the displaced triangles of other polygons.
 pub fn left<T>(result: &Result<T, Failure>) -> usize {
     match result {
         Err(Failure::GaveUp(GaveUp::Stuck { crossing, .. })) => *crossing,

@@ -1,7 +1,7 @@
 //! Several methods on copies of one tetrahedralization, timed in turns.
 //!
-//! The methods take turns in rounds, each round beginning with another one, so that none always has the same predecessor to
-//! warm, or to cool, the caches, and so that a busy minute of the machine meets all of them.
+//! The methods take turns in rounds, each round beginning with another one, so that none always has the same
+//! predecessor to warm, or to cool, the caches, and so that a busy minute of the machine meets all of them.
 
 use super::method::Method;
 use super::outcome;
@@ -79,7 +79,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Inserts the polygons of a PLC into copies of its tetrahedralization. Methods that are slow take part in the first rounds only.
+    /// Inserts the polygons of a PLC into copies of its tetrahedralization. Methods that are slow take part in the
+    /// first rounds only.
     ///
     /// # Errors
     /// If there is no tetrahedralization with its segments.

@@ -2,15 +2,16 @@
 
 use rayon::ThreadPoolBuilder;
 
-/// A pool of so many threads, of which the one that builds it is the first: alone, it needs no other and waits for none.
+/// A pool of so many threads, of which the one that builds it is the first: alone, it needs no other and waits for
+/// none.
 pub fn pool(threads: usize) -> ThreadPoolBuilder {
     ThreadPoolBuilder::new()
         .num_threads(threads)
         .use_current_thread()
 }
 
-/// Does the same work in a thread for each processor. None of them has help from others in what it does: there are none to
-/// spare.
+/// Does the same work in a thread for each processor. None of them has help from others in what it does: there are none
+/// to spare.
 pub fn on_all_processors<T: Send>(work: impl Fn() -> T + Sync) -> Vec<T> {
     let alone = || {
         let pool = pool(1).build();

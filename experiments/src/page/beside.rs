@@ -1,5 +1,5 @@
-//! The paper's tables. Table 1 with `table1.csv` beside it: of each of its models the paper's column, then ours of the same model,
-//! or of one of its kind and size. Table 2 as its authors print it: a line for each task.
+//! The paper's tables. Table 1 with `table1.csv` beside it: of each of its models the paper's column, then ours of the
+//! same model, or of one of its kind and size. Table 2 as its authors print it: a line for each task.
 
 use super::html::escape;
 use crate::frame::query::Rows;
@@ -63,7 +63,8 @@ pub fn table_1(ours: Option<&Sheet>) -> String {
         }
     }
     let mut html = format!(
-        "<div class=\"scroll whole\" tabindex=\"0\"><table class=\"paper wide\"><thead><tr><th></th><th></th>{above}</tr>\n\
+        "<div class=\"scroll whole\" tabindex=\"0\"><table class=\"paper \
+         wide\"><thead><tr><th></th><th></th>{above}</tr>\n\
          <tr><th class=\"n\">row</th><th></th>{names}</tr></thead>\n<tbody>\n"
     );
     for (i, (meaning, column)) in ROWS.into_iter().enumerate() {
@@ -82,7 +83,8 @@ pub fn table_1(ours: Option<&Sheet>) -> String {
     html + "</tbody></table></div>\n"
 }
 
-/// What the shares of Table 2 are of: rows 1 to 4 of the running time of cavity retriangulation, 5 and 6 of that of flips.
+/// What the shares of Table 2 are of: rows 1 to 4 of the running time of cavity retriangulation, 5 and 6 of that of
+/// flips.
 const TASKS: [&str; 6] = [
     "cavities: constructing their Delaunay tetrahedralizations",
     "cavities: identifying cavity faces in them",
@@ -100,7 +102,8 @@ pub fn table_2(caption: &str) -> String {
     };
     let models = cells("th", TABLE_2.map(|(model, _)| model.to_string()));
     let mut html = format!(
-        "<p class=\"caption\">{caption}</p>\n<div class=\"scroll whole\" tabindex=\"0\"><table class=\"paper\"><thead><tr>\
+        "<p class=\"caption\">{caption}</p>\n<div class=\"scroll whole\" tabindex=\"0\"><table \
+         class=\"paper\"><thead><tr>\
          <th class=\"n\">row</th><th></th>{models}</tr></thead>\n<tbody>\n"
     );
     for (i, task) in TASKS.into_iter().enumerate() {

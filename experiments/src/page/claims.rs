@@ -15,12 +15,14 @@ struct Claim {
 const CLAIMS: [Claim; 6] = [
     Claim {
         place: "§3.4, Fig. 9",
-        paper: "“At this scale, the running times of both algorithms appear to be linear in the number of crossing tetrahedra.”",
+        paper: "“At this scale, the running times of both algorithms appear to be linear in the number of crossing \
+                tetrahedra.”",
         ours: growth,
     },
     Claim {
         place: "§3.4, Fig. 9",
-        paper: "“For larger cavities, the cavity retriangulation algorithm is about twice as fast as the flip algorithm, …”",
+        paper: "“For larger cavities, the cavity retriangulation algorithm is about twice as fast as the flip \
+                algorithm, …”",
         ours: |files| ratios(files, &["100", "300", "1000"]),
     },
     Claim {
@@ -30,21 +32,21 @@ const CLAIMS: [Claim; 6] = [
     },
     Claim {
         place: "§3.4, Table 1",
-        paper: "Of the eight models of Table 1, rows 14 and 15: “The running times differ by less than 6%, and less than 1% of the \
-                total CDT construction time.”",
+        paper: "Of the eight models of Table 1, rows 14 and 15: “The running times differ by less than 6%, and less \
+                than 1% of the total CDT construction time.”",
         ours: polygons,
     },
     Claim {
         place: "§3.4, the failure case",
-        paper: "“We observed one PLC for which the flip algorithm failed because it got stuck”, at Schönhardt’s polyhedron, after \
-                flips in the wrong order: “rounding errors in the flip time computations or our failure to account for the weight \
-                perturbations”.",
+        paper: "“We observed one PLC for which the flip algorithm failed because it got stuck”, at Schönhardt’s \
+                polyhedron, after flips in the wrong order: “rounding errors in the flip time computations or our \
+                failure to account for the weight perturbations”.",
         ours: stuck,
     },
     Claim {
         place: "§3.4, recommendation",
-        paper: "Cavity retriangulation, “unless resources are available to implement the latter algorithm’s priority queue comparisons \
-                with exact arithmetic and symbolic weight perturbations”.",
+        paper: "Cavity retriangulation, “unless resources are available to implement the latter algorithm’s priority \
+                queue comparisons with exact arithmetic and symbolic weight perturbations”.",
         ours: exact,
     },
 ];
@@ -93,8 +95,8 @@ fn growth(files: &Files) -> Result<String, String> {
         )
     };
     Ok(format!(
-        "Seconds grow as n<sup>{}</sup> for flips in exact order and as n<sup>{}</sup> for cavities, from {from} to {to} vertices \
-         (3.3 crossing tetrahedra each).",
+        "Seconds grow as n<sup>{}</sup> for flips in exact order and as n<sup>{}</sup> for cavities, from {from} to \
+         {to} vertices (3.3 crossing tetrahedra each).",
         exponent("flip filtered")?,
         exponent("cavity")?
     ))
@@ -117,7 +119,8 @@ fn ratios(files: &Files, classes: &[&str]) -> Result<String, String> {
             continue;
         };
         parts.push(format!(
-            "{class}–{below} crossing tetrahedra: <strong>{}</strong> (f64, as the paper), <strong>{}</strong> (exact order)",
+            "{class}–{below} crossing tetrahedra: <strong>{}</strong> (f64, as the paper), <strong>{}</strong> (exact \
+             order)",
             of("f64", "ratio_to_cavity")?,
             of("filtered", "ratio_to_cavity")?
         ));
@@ -150,8 +153,8 @@ fn polygons(files: &Files) -> Result<String, String> {
     // The greater of two numbers is half of their sum and their difference.
     let slower = format!("(cavity_seconds + flip_seconds + {difference})");
     Ok(format!(
-        "On {} models they differ by at most {} of the slower, and by at most {} of the whole construction; polygons by cavities take at \
-         most {} of that.",
+        "On {} models they differ by at most {} of the slower, and by at most {} of the whole construction; polygons \
+         by cavities take at most {} of that.",
         asked(&table, ours, "sum(1)")?,
         worst(&format!("2 * {difference} / {slower}"))?,
         worst(&format!("{difference} / total_seconds"))?,
@@ -163,8 +166,8 @@ fn stuck(files: &Files) -> Result<String, String> {
     let table = files.table("flip_order")?;
     let f64 = |question| asked(&table, "subfamily=all, times=f64", question);
     Ok(format!(
-        "With times in f64, {} of {} small inputs made for it fail: {} get stuck, {} of them at Schönhardt’s polyhedron, and {} end in \
-         what is not the CDT. <a href=\"#viewer\">One of them, step by step.</a>",
+        "With times in f64, {} of {} small inputs made for it fail: {} get stuck, {} of them at Schönhardt’s \
+         polyhedron, and {} end in what is not the CDT. <a href=\"#viewer\">One of them, step by step.</a>",
         f64("sum(inputs - ok)")?,
         f64("sum(inputs)")?,
         f64("sum(stuck)")?,
@@ -177,7 +180,8 @@ fn exact(files: &Files) -> Result<String, String> {
     let table = files.table("flip_order")?;
     let exact = |question| asked(&table, "subfamily=all, times=filtered", question);
     Ok(format!(
-        "In exact order with the perturbation, {} of {} inputs fail, with {} pairs of flips in the wrong order and {} uses of a patch.",
+        "In exact order with the perturbation, {} of {} inputs fail, with {} pairs of flips in the wrong order and {} \
+         uses of a patch.",
         exact("sum(inputs - ok)")?,
         exact("sum(inputs)")?,
         exact("sum(kendall)")?,

@@ -15,8 +15,8 @@ pub fn plot(files: &Files, name: &str, caption: &str) -> Result<String, String> 
     ))
 }
 
-/// The svg element, with a name for those who cannot see it; its width follows the page. None if it is no such element or would
-/// run a program.
+/// The svg element, with a name for those who cannot see it; its width follows the page. None if it is no such element
+/// or would run a program.
 fn inlined(svg: &str, name: &str, caption: &str) -> Option<String> {
     let svg = &svg[svg.find("<svg")?..];
     let (start, rest) = svg.split_at(svg.find('>')?);

@@ -1,9 +1,10 @@
-//! A traced insertion as a film: what each event takes away and adds, so that a viewer can step to and fro without geometry.
+//! A traced insertion as a film: what each event takes away and adds, so that a viewer can step to and fro without
+//! geometry.
 //!
-//! A trace has circuits and kinds of flips only. The tetrahedra follow from them: a 2-3 or 3-2 flip exchanges those of the
-//! circuit's five possible tetrahedra that are there for the others; a 4-4 flip turns the edge ab of the triangle abc over,
-//! which is in a plane with v and w and in four tetrahedra. At the end the tetrahedra must be those that the insertion itself
-//! left; that is asserted.
+//! A trace has circuits and kinds of flips only. The tetrahedra follow from them: a 2-3 or 3-2 flip exchanges those of
+//! the circuit's five possible tetrahedra that are there for the others; a 4-4 flip turns the edge ab of the triangle
+//! abc over, which is in a plane with v and w and in four tetrahedra. At the end the tetrahedra must be those that the
+//! insertion itself left; that is asserted.
 
 use crate::flips::order::{Circuit, Insertion, exact_ranks, is_left, takes_turn};
 use std::collections::BTreeSet;
@@ -30,8 +31,8 @@ pub struct Frame {
     pub created: Vec<Tet>,
     /// The exact time, rounded to a double; none if exact numbers never flip the triangle (D ≤ 0).
     pub exact_time: Option<f64>,
-    /// The least and the greatest time that doubles compute, by the order in which the tetrahedron's vertices are stored, which a
-    /// trace does not tell; none where they would not queue it.
+    /// The least and the greatest time that doubles compute, by the order in which the tetrahedron's vertices are
+    /// stored, which a trace does not tell; none where they would not queue it.
     pub rounded_times: Option<[f64; 2]>,
     /// The place, from 1, among the events that came off the queue alive, in exact order.
     pub rank: Option<usize>,

@@ -1,5 +1,5 @@
-//! What the README of this package says of each experiment, so that the page says the same: the question, the inputs, what is
-//! expected, and the unit and the meaning of each column.
+//! What the README of this package says of each experiment, so that the page says the same: the question, the inputs,
+//! what is expected, and the unit and the meaning of each column.
 
 use std::collections::BTreeMap;
 

@@ -20,8 +20,8 @@ pub fn script_json(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-/// One paragraph of Markdown: `code`, **strong**, *emphasis*, and links, of which only the text is kept (they lead to files
-/// that a page on its own does not have).
+/// One paragraph of Markdown: `code`, **strong**, *emphasis*, and links, of which only the text is kept (they lead to
+/// files that a page on its own does not have).
 pub fn inline(markdown: &str) -> String {
     let mut html = String::new();
     for (i, part) in markdown.split('`').enumerate() {

@@ -2,8 +2,8 @@
 //!
 //! It has every table and plot of a directory of results (`contents`), what the README of this package says of them
 //! (`guide`), the paper's numbers (`beside`, `claims`), and a viewer in which one can step through insertions flip by
-//! flip, in exact order and with rounded times side by side (`scenes`). The page is a function of the files and of these
-//! sources: the same results give the same bytes. What is missing is named on the page.
+//! flip, in exact order and with rounded times side by side (`scenes`). The page is a function of the files and of
+//! these sources: the same results give the same bytes. What is missing is named on the page.
 
 mod beside;
 mod claims;
@@ -76,16 +76,18 @@ pub fn page(directory: &Path) -> String {
     let programs = PROGRAMS.join("\n");
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
+         script-src 'unsafe-inline'; img-src data:\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n\
          <link rel=\"icon\" href=\"data:,\">\n\
          <title>tetflip: results of the experiments</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
          <header>\n<h1>tetflip: results of the experiments</h1>\n\
-         <p class=\"lead\">Constrained Delaunay tetrahedralizations by exact flips and by cavity retriangulation, after Si and Shewchuk, \
-         “Incrementally constructing and updating constrained Delaunay tetrahedralizations with finite-precision coordinates” \
-         (“the paper”).</p>\n{}</header>\n\
-         <nav aria-label=\"Contents\">\n<a href=\"#paper\">The paper and these results</a>\n<a href=\"#viewer\">Flips, step by step</a>\n{links}\
+         <p class=\"lead\">Constrained Delaunay tetrahedralizations by exact flips and by cavity retriangulation, \
+         after Si and Shewchuk, “Incrementally constructing and updating constrained Delaunay tetrahedralizations \
+         with finite-precision coordinates” (“the paper”).</p>\n{}</header>\n\
+         <nav aria-label=\"Contents\">\n<a href=\"#paper\">The paper and these results</a>\n<a \
+         href=\"#viewer\">Flips, step by step</a>\n{links}\
          <a href=\"#runs\">Runs</a>\n</nav>\n<main>\n{missing}{paper}{VIEWER}{}{others}{runs}</main>\n\
          <script type=\"application/json\" id=\"scenes\">{}</script>\n<script>\n{LIBRARY}</script>\n\
          <script>\n(() => {{\n\"use strict\";\n{programs}\n}})();\n</script>\n</body>\n</html>\n",
@@ -116,11 +118,12 @@ fn machine(files: &Files) -> String {
 fn paper_section(files: &Files) -> String {
     format!(
         "<section id=\"paper\">\n<h2>The paper and these results</h2>\n\
-         <p>Its machine was a laptop with a 2.8 GHz Intel processor and 4 GB of memory, its programs were compiled by g++ 4.4 with -O3. \
-         Seconds of two machines cannot be compared; ratios can.</p>\n{}<p class=\"caption\">The paper’s <strong>Table 1</strong>, \
-         statistics for CDT construction by TetGen 1.5.0 on models of the INRIA GAMMA repository, and <span class=\"ours\">beside it, in \
-         colour, these results</span>: <code>table1.csv</code>, the same model where it was at hand, else one of its kind and size, with flips \
-         and cavities of this library.</p>\n{}{}</section>\n",
+         <p>Its machine was a laptop with a 2.8 GHz Intel processor and 4 GB of memory, its programs were compiled by \
+         g++ 4.4 with -O3. Seconds of two machines cannot be compared; ratios can.</p>\n{}<p class=\"caption\">The \
+         paper’s <strong>Table 1</strong>, statistics for CDT construction by TetGen 1.5.0 on models of the INRIA \
+         GAMMA repository, and <span class=\"ours\">beside it, in colour, these results</span>: \
+         <code>table1.csv</code>, the same model where it was at hand, else one of its kind and size, with flips and \
+         cavities of this library.</p>\n{}{}</section>\n",
         claims::html(files),
         beside::table_1(files.table("table1").ok().as_ref()),
         beside::table_2(

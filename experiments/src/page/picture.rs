@@ -1,5 +1,5 @@
-//! Vertices as the viewer draws them: the polygon's plane is horizontal, its centroid the origin, and heights are exact before
-//! they are rounded, because in some scenes all of them are within an ulp.
+//! Vertices as the viewer draws them: the polygon's plane is horizontal, its centroid the origin, and heights are exact
+//! before they are rounded, because in some scenes all of them are within an ulp.
 
 use tetflip::mesh::VertexId;
 use tetflip::number::{Dyadic, Sign, Vec3};

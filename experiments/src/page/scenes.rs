@@ -1,7 +1,8 @@
 //! The scenes of the viewer: small insertions, each with the exact order of flips and with times in doubles, as data.
 //!
-//! Coordinates are those of the polygon's plane and the height over it, scaled to the picture; heights that could not be seen
-//! are drawn too large, and the scene says by how much. This is an affine map, so that what is inside what does not change.
+//! Coordinates are those of the polygon's plane and the height over it, scaled to the picture; heights that could not
+//! be seen are drawn too large, and the scene says by how much. This is an affine map, so that what is inside what does
+//! not change.
 
 use crate::families::Member;
 use crate::inputs::slab::Slab;
@@ -39,28 +40,29 @@ const SCENES: [Plan; 5] = [
     Plan {
         source: Source::Member("prism/end:78"),
         title: "The failure case of the paper (§3.4)",
-        text: "A prism over a triangle, its six corners on one sphere up to rounding, and a seventh vertex that sees the \
-               polygon, one end of the prism. All flips happen at nearly one time. In f64 the last of seven events comes \
-               first; the diagonals of the sides then go around the prism, and the half behind the polygon is Schönhardt’s \
-               polyhedron, which has no tetrahedralization.",
+        text: "A prism over a triangle, its six corners on one sphere up to rounding, and a seventh vertex that sees \
+               the polygon, one end of the prism. All flips happen at nearly one time. In f64 the last of seven events \
+               comes first; the diagonals of the sides then go around the prism, and the half behind the polygon is \
+               Schönhardt’s polyhedron, which has no tetrahedralization.",
     },
     Plan {
         source: Source::Member("lattice/layers:423"),
         title: "A lattice: exact ties",
-        text: "Vertices of a lattice of integers: many flip times are exactly equal, and the perturbation of the weights alone \
-               puts them in order. Doubles cannot; no crossing tetrahedron is left in the end, but the result is not the CDT.",
+        text: "Vertices of a lattice of integers: many flip times are exactly equal, and the perturbation of the \
+               weights alone puts them in order. Doubles cannot; no crossing tetrahedron is left in the end, but the \
+               result is not the CDT.",
     },
     Plan {
         source: Source::Member("sphere/centre:5"),
         title: "A sphere: exact ties",
-        text: "Many vertices lie exactly on one sphere, so that many flips have one time, and what doubles tell of their order is \
-               noise; the result is not the CDT.",
+        text: "Many vertices lie exactly on one sphere, so that many flips have one time, and what doubles tell of \
+               their order is noise; the result is not the CDT.",
     },
     Plan {
         source: Source::Member("near-coplanar/tilted:0"),
         title: "Nearly coplanar vertices",
-        text: "All vertices are within some units in the last place of the polygon’s plane; the rounded determinants have hardly a \
-               correct digit. The flips get stuck.",
+        text: "All vertices are within some units in the last place of the polygon’s plane; the rounded determinants \
+               have hardly a correct digit. The flips get stuck.",
     },
     Plan {
         source: Source::Slab(Slab {
@@ -69,8 +71,8 @@ const SCENES: [Plan; 5] = [
             seed: 5,
         }),
         title: "Random vertices (Fig. 8)",
-        text: "The scene of the paper’s experiment: random vertices on both sides of a rectangle. Times are well apart; both \
-               orders end in the CDT.",
+        text: "The scene of the paper’s experiment: random vertices on both sides of a rectangle. Times are well \
+               apart; both orders end in the CDT.",
     },
 ];
 

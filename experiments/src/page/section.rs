@@ -106,7 +106,8 @@ fn outcome(stem: &str, files: &Files) -> String {
     };
     let class = if of("outcome") == "ok" { "good" } else { "bad" };
     format!(
-        "<p class=\"outcome\"><b>Outcome</b> <span><span class=\"{class}\">{text}</span> ({} form, {} s, commit <code>{}</code>).</span></p>\n",
+        "<p class=\"outcome\"><b>Outcome</b> <span><span class=\"{class}\">{text}</span> ({} form, {} s, commit \
+         <code>{}</code>).</span></p>\n",
         escape(of("form")),
         escape(of("seconds")),
         escape(of("commit").get(..12).unwrap_or(of("commit")))

@@ -13,7 +13,8 @@ pub struct Table {
     rows: Vec<Vec<String>>,
 }
 
-/// Tables up to this length stand in the page itself; longer ones as data, from which the page makes them when they are opened.
+/// Tables up to this length stand in the page itself; longer ones as data, from which the page makes them when they are
+/// opened.
 const MOST_ROWS: usize = 300;
 
 impl Table {
@@ -41,7 +42,8 @@ impl Table {
         (table, constants.collect())
     }
 
-    /// The table of a sheet, with a caption in HTML. `name` is that of the file without `.csv`, `stem` that of the experiment.
+    /// The table of a sheet, with a caption in HTML. `name` is that of the file without `.csv`, `stem` that of the
+    /// experiment.
     pub fn html(sheet: &Sheet, guide: &Guide, stem: &str, name: &str, caption: &str) -> String {
         let (table, constants) = Table::split_constants(sheet);
         let mut html = match (caption, &constants[..]) {
@@ -92,7 +94,8 @@ impl Table {
         let rows: Vec<String> = self.rows.iter().map(|row| row.join("\t")).collect();
         let json = serde_json::to_string(&rows.join("\n")).expect("a string");
         format!(
-            "<div class=\"scroll\" tabindex=\"0\"><table class=\"{}\" data-rows=\"rows-{name}\"><thead><tr>{headers}</tr></thead>\
+            "<div class=\"scroll\" tabindex=\"0\"><table class=\"{}\" \
+             data-rows=\"rows-{name}\"><thead><tr>{headers}</tr></thead>\
              <tbody></tbody></table></div>\n<script type=\"application/json\" id=\"rows-{name}\">{}</script>\n",
             self.class(),
             script_json(&json)
@@ -149,7 +152,8 @@ pub fn pivot(sheet: &Sheet, caption: &str, pivot: &Pivot) -> Result<String, Shee
     }
     let (caption, file) = (escape(caption), &sheet.file);
     Ok(format!(
-        "<p class=\"caption\">{caption} <code>{file}</code></p>\n<div class=\"scroll whole\" tabindex=\"0\"><table class=\"pivot\">\
+        "<p class=\"caption\">{caption} <code>{file}</code></p>\n<div class=\"scroll whole\" tabindex=\"0\"><table \
+         class=\"pivot\">\
          <thead><tr><th scope=\"col\">{down}</th>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>\n"
     ))
 }

@@ -1,7 +1,8 @@
 //! No number of the text is typed by hand: digits are found outside of the places where they may be.
 //!
-//! They may be in comments, in the arguments of commands that refer to something (`\ref`, `\cite`, `\input`, …), in the names of
-//! flips (2-3, 3-2, 4-4), and on lines that end with a comment `% digits: why`, for definitions of inputs, say.
+//! They may be in comments, in the arguments of commands that refer to something (`\ref`, `\cite`, `\input`, …), in the
+//! names of flips (2-3, 3-2, 4-4), and on lines that end with a comment `% digits: why`, for definitions of inputs,
+//! say.
 
 /// A line with digits.
 #[derive(Clone, Debug, PartialEq, Eq)]

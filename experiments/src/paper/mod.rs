@@ -1,10 +1,10 @@
-//! The generated part of the paper: tables, points of plots, and a command for every number in its text, from the CSV files of
-//! the results.
+//! The generated part of the paper: tables, points of plots, and a command for every number in its text, from the CSV
+//! files of the results.
 //!
-//! `experiments paper` writes them to `paper/generated`; `--check` compares instead. A file or a row that is missing is an
-//! error that names it, except for the experiments that need other programs or hours (`optional`): in their place the
-//! paper says that they have not been run. Sentences that numbers could contradict are claims. What the text
-//! needs is listed in two tables, `numbers.txt` and `claims.txt`. The same results give the same bytes.
+//! `experiments paper` writes them to `paper/generated`; `--check` compares instead. A file or a row that is missing is
+//! an error that names it, except for the experiments that need other programs or hours (`optional`): in their place
+//! the paper says that they have not been run. Sentences that numbers could contradict are claims. What the text needs
+//! is listed in two tables, `numbers.txt` and `claims.txt`. The same results give the same bytes.
 
 mod lint;
 mod needed;

@@ -181,8 +181,8 @@ fn cost(sheets: &Sheets) -> Result<String, SheetError> {
             table.row(&row);
         }
     }
-    let source = "exactness_cost-summary.csv: smallest and largest `about`; succeeded, median_milliseconds, ratio_to_f64, \
-        ratio_to_cavity, by_floats, by_exact_quotients, by_perturbation in percent";
+    let source = "exactness_cost-summary.csv: smallest and largest `about`; succeeded, median_milliseconds, \
+                  ratio_to_f64, ratio_to_cavity, by_floats, by_exact_quotients, by_perturbation in percent";
     Ok(table.into_text(source))
 }
 

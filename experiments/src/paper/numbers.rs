@@ -1,5 +1,5 @@
-//! `numbers.tex`: a command for each number of the text, with its source; and the sentences that say more than a number. Both are
-//! read from tables, `numbers.txt` and `claims.txt`, which say what is asked of which file.
+//! `numbers.tex`: a command for each number of the text, with its source; and the sentences that say more than a
+//! number. Both are read from tables, `numbers.txt` and `claims.txt`, which say what is asked of which file.
 
 use super::number::Format;
 use super::sheets::Sheets;
@@ -227,7 +227,8 @@ mod tests {
 
     #[test]
     fn commands_have_sources() {
-        let table = "# comment\nA | a | x=1 | only(y) | ratio\nB | a | | least(y) | percent\nC | a | x>0 | range(x) | whole\n\
+        let table = "# comment\nA | a | x=1 | only(y) | ratio\nB | a | | least(y) | percent\nC | a | x>0 | range(x) | \
+                     whole\n\
                      V | a | | version | text\n[if D: b]\nE | b | | sum(x) | whole\n[if F: a, distinct(x) > 1]\n\
                      G | a | x=7 | version | text\nH | a | x=7 | range(y) | ratio\n";
         let expected = "% a.csv: x=1; only(y)\n\\newcommand{\\A}{0.50}\n\

@@ -1,4 +1,5 @@
-//! Tables of experiments that need other programs, other models or much memory: where their files are missing the paper says so.
+//! Tables of experiments that need other programs, other models or much memory: where their files are missing the paper
+//! says so.
 
 use super::needed::File;
 use super::number::{Format, whole};
@@ -127,8 +128,8 @@ const TABLE_1: [Column; 15] = [
     ("all", "only?(total_seconds)", Format::Exact),
 ];
 
-/// Each of the original's columns with ours beside it, as rows, then the other built-in models. Of other models only those that the
-/// original has are shown.
+/// Each of the original's columns with ours beside it, as rows, then the other built-in models. Of other models only
+/// those that the original has are shown.
 fn table1(sheet: &Sheet) -> Result<String, SheetError> {
     let mut table = Table::new("lrrrrrrrrrrrrrrr", &["model"], &TABLE_1);
     let mut row = |name: String, rows: &Rows| {
@@ -155,8 +156,8 @@ fn table1(sheet: &Sheet) -> Result<String, SheetError> {
     Ok(table.into_text("table1.csv"))
 }
 
-/// One line for each of our methods on each of the built-in inputs, the other programs beside it; models are in the sums of
-/// `rivals-targets.csv`.
+/// One line for each of our methods on each of the built-in inputs, the other programs beside it; models are in the
+/// sums of `rivals-targets.csv`.
 fn rivals(sheet: &Sheet) -> Result<String, SheetError> {
     let over =
         |what: &str, whose: &str| format!("$\\frac{{\\text{{{what}}}}}{{\\text{{{whose}}}}}$");
@@ -242,8 +243,8 @@ const CLASSES: [(&str, &str); 3] = [
     ("from 1\\,841", "crossing_tets>=1841"),
 ];
 
-/// By class and mode: scenes, those that end in the CDT, and medians of the ratios of ours to its time, and of the time of
-/// its flips to that of its cavities.
+/// By class and mode: scenes, those that end in the CDT, and medians of the ratios of ours to its time, and of the time
+/// of its flips to that of its cavities.
 fn fig9_tetgen(sheet: &Sheet) -> Result<String, SheetError> {
     let columns = [
         ("scenes", "sum(1)", Format::Whole),

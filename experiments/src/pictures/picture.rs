@@ -1,8 +1,8 @@
 //! Small polyhedra beside a polygon, drawn as SVG.
 //!
-//! What matters is on which side of the polygon something is, and many polyhedra are thousands of times as wide as they are
-//! high. So the picture is affine: the height above the polygon's plane is stretched until it can be seen. Straight stays
-//! straight, convex stays convex, and sides stay sides.
+//! What matters is on which side of the polygon something is, and many polyhedra are thousands of times as wide as they
+//! are high. So the picture is affine: the height above the polygon's plane is stretched until it can be seen. Straight
+//! stays straight, convex stays convex, and sides stay sides.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -116,8 +116,8 @@ impl Stage {
     }
 }
 
-/// A picture. What is added first is not necessarily behind: the depth decides. It is seen from where vertices are farthest
-/// apart, and as large as the page allows.
+/// A picture. What is added first is not necessarily behind: the depth decides. It is seen from where vertices are
+/// farthest apart, and as large as the page allows.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
     items: Vec<Item>,
@@ -190,8 +190,8 @@ impl Picture {
         });
     }
 
-    /// The tetrahedra of a region: their triangles, the boundary stronger than the inside; edges that cross the plane in a
-    /// colour of their own; vertices by side. `side` is 1 above the plane, −1 below, 0 on it.
+    /// The tetrahedra of a region: their triangles, the boundary stronger than the inside; edges that cross the plane
+    /// in a colour of their own; vertices by side. `side` is 1 above the plane, −1 below, 0 on it.
     pub fn tetrahedra(
         &mut self,
         tets: &[[u32; 4]],
@@ -243,7 +243,8 @@ impl Picture {
         }
     }
 
-    /// The view in which the two nearest vertices with names are farthest apart; of pictures without names, a usual one.
+    /// The view in which the two nearest vertices with names are farthest apart; of pictures without names, a usual
+    /// one.
     fn view(&self) -> View {
         let usual = View {
             turn: 0.45,
@@ -304,8 +305,8 @@ impl Picture {
         let mut order: Vec<usize> = (0..self.items.len()).collect();
         order.sort_by(|&a, &b| depth(b).total_cmp(&depth(a)));
         let mut text = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {SIZE} {SIZE}\" width=\"{SIZE}\" height=\"{SIZE}\" \
-             font-family=\"sans-serif\" font-size=\"12\">\n<title>{title}</title>\n\
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {SIZE} {SIZE}\" width=\"{SIZE}\" \
+             height=\"{SIZE}\" font-family=\"sans-serif\" font-size=\"12\">\n<title>{title}</title>\n\
              <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         );
         for i in order {
@@ -336,7 +337,8 @@ impl Shape {
                 )
             }
             Shape::Edge(color, width) => format!(
-                "<line x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" stroke=\"{color}\" stroke-width=\"{width}\"/>\n",
+                "<line x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" stroke=\"{color}\" \
+                 stroke-width=\"{width}\"/>\n",
                 spots[1].0, spots[1].1
             ),
             Shape::Vertex(color, name) if name.is_empty() => {

@@ -89,8 +89,8 @@ pub struct Plot {
 /// Width and height of a plot in pixels.
 const SIZE: (u32, u32) = (720, 480);
 
-/// Okabe & Ito's colours that the colour-blind can tell apart, but for their yellow, which white swallows; then three darker
-/// ones. Series whose colours are alike differ in shape.
+/// Okabe & Ito's colours that the colour-blind can tell apart, but for their yellow, which white swallows; then three
+/// darker ones. Series whose colours are alike differ in shape.
 const COLORS: [RGBColor; 9] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

@@ -1,7 +1,7 @@
 //! Fig. 8 as a picture.
 //!
-//! **Question.** What does the scene of §3.4 look like: a rectangle that cuts through the Delaunay tetrahedralization of random
-//! vertices, and the region of tetrahedra that it crosses?
+//! **Question.** What does the scene of §3.4 look like: a rectangle that cuts through the Delaunay tetrahedralization
+//! of random vertices, and the region of tetrahedra that it crosses?
 //!
 //! **Inputs.** The scene of `fig9` ([`crate::inputs::slab`]) with 45 vertices. In the picture heights are stretched.
 //!
@@ -120,7 +120,8 @@ fn picture(
         false,
     );
     let caption = format!(
-        "{} random vertices and a rectangle, {when} its insertion:\nthe {} tetrahedra of the missing region. Red edges cross\nthe rectangle; heights are stretched.",
+        "{} random vertices and a rectangle, {when} its insertion:\nthe {} tetrahedra of the missing region. Red \
+         edges cross\nthe rectangle; heights are stretched.",
         SLAB.vertices,
         tets.len()
     );

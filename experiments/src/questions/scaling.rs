@@ -1,7 +1,7 @@
 //! Growth of the whole.
 //!
-//! **Question.** How do time and memory grow with the number of points, up to ten million, and with the number of facets, up
-//! to a million?
+//! **Question.** How do time and memory grow with the number of points, up to ten million, and with the number of
+//! facets, up to a million?
 //!
 //! **Inputs.** Uniform points ([`crate::inputs::points`]) and generated surfaces. A row is one size, in a process
 //! of its own.

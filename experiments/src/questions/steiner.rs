@@ -1,9 +1,10 @@
 //! How many Steiner points the segments need.
 //!
-//! **Question.** How many Steiner points does segment recovery insert, on small angles and on models, compared with other
-//! programs, and how many of them lie exactly on their segment?
+//! **Question.** How many Steiner points does segment recovery insert, on small angles and on models, compared with
+//! other programs, and how many of them lie exactly on their segment?
 //!
-//! **Inputs.** Built-in families with small angles ([`crate::inputs::angles`]); with `--models DIR` every model of a directory.
+//! **Inputs.** Built-in families with small angles ([`crate::inputs::angles`]); with `--models DIR` every model of a
+//! directory.
 //!
 //! **Columns.** [`Row`], [`Summary`]; the README of this package has their meaning.
 //!

@@ -72,8 +72,8 @@ fn points_only(plc: Plc) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The mesh of the convex hull, the seconds of its construction, of these for polygons, and the number of Steiner points. As in
-/// TetGen's phases, inside and outside are not told apart and no arrays are made while the clock runs.
+/// The mesh of the convex hull, the seconds of its construction, of these for polygons, and the number of Steiner
+/// points. As in TetGen's phases, inside and outside are not told apart and no arrays are made while the clock runs.
 fn cdt(plc: &Plc, insertion: Insertion) -> Result<(ExportedMesh, f64, f64, usize), Box<dyn Error>> {
     let mut report = Report::default();
     let start = processor_seconds();

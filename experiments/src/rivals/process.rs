@@ -1,7 +1,7 @@
 //! Programs as processes, with their processor time and memory.
 //!
-//! The operating system tells the greatest memory of all children that a process has had, not of one: so each program is run
-//! by a copy of this program that has no other child ([`limited`]).
+//! The operating system tells the greatest memory of all children that a process has had, not of one: so each program
+//! is run by a copy of this program that has no other child ([`limited`]).
 
 use std::process::{Command, Stdio};
 use std::time::Duration;
@@ -72,7 +72,8 @@ pub fn run(program: &str, arguments: &[String], limit: Duration) -> Ran {
     }
 }
 
-/// Runs a program, passes on its output, tells its peak memory, and whether it ended well; kills it when the time is over.
+/// Runs a program, passes on its output, tells its peak memory, and whether it ended well; kills it when the time is
+/// over.
 ///
 /// # Errors
 /// If it cannot be started.

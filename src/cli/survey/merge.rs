@@ -4,8 +4,8 @@ use super::table::{Row, TableError, header, line_of, parse, write_all};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Makes one table of several, in the order of the models' names, as one survey would have made it. Returns its rows, and how many
-/// more were the same as one of them but for what depends on the machine.
+/// Makes one table of several, in the order of the models' names, as one survey would have made it. Returns its rows,
+/// and how many more were the same as one of them but for what depends on the machine.
 pub(super) fn merge(tables: &[PathBuf], output: &Path) -> Result<(Vec<Row>, usize), TableError> {
     let (mut rows, mut known, mut repeated) =
         (Vec::<Row>::new(), BTreeMap::<[String; 4], usize>::new(), 0);

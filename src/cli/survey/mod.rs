@@ -1,8 +1,8 @@
 //! The command `survey`: a whole collection of models, each by several methods, in a table that survives everything.
 //!
-//! Every run is a process of its own ([`run`], [`worker`]), so that a crash, a hang or a lack of memory is an outcome of
-//! one model and one method. Runs of one model follow each other; models are processed side by side. Nothing in a row
-//! depends on the order, except seconds and memory.
+//! Every run is a process of its own ([`run`], [`worker`]), so that a crash, a hang or a lack of memory is an outcome
+//! of one model and one method. Runs of one model follow each other; models are processed side by side. Nothing in a
+//! row depends on the order, except seconds and memory.
 
 mod limits;
 mod merge;
@@ -34,7 +34,8 @@ use worker::{Job, work};
 /// Arguments of `tetflip survey`.
 #[derive(clap::Args)]
 pub(crate) struct SurveyArguments {
-    /// The collection: a directory, searched with all below it for what `mesh` reads; or one file. With --merge: tables.
+    /// The collection: a directory, searched with all below it for what `mesh` reads; or one file. With --merge:
+    /// tables.
     #[arg(required = true)]
     collection: Vec<PathBuf>,
     /// Makes one table of several, of shards or of methods: one header, in the order of the models' names. Rows that
@@ -222,7 +223,8 @@ fn worker(arguments: &SurveyArguments, settings: &Settings) -> Result<(), Stop> 
     Ok(())
 }
 
-/// All methods once, in the order of the arguments; other programs last. They know no other than rounded Steiner points.
+/// All methods once, in the order of the arguments; other programs last. They know no other than rounded Steiner
+/// points.
 fn methods(arguments: &SurveyArguments) -> Vec<Method> {
     let mut list: Vec<Method> = Vec::new();
     let mut add = |algorithm, steiner| {

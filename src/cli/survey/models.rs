@@ -27,8 +27,8 @@ impl Model {
 
 /// All models below a directory (or the one file), in the order of their names, and a note of the files that are none.
 ///
-/// A `.node` file is a model, a set of points, unless it belongs to another file of its stem: it may hold the vertices of a
-/// `.poly` or `.smesh` file, or those of a mesh.
+/// A `.node` file is a model, a set of points, unless it belongs to another file of its stem: it may hold the vertices
+/// of a `.poly` or `.smesh` file, or those of a mesh.
 ///
 /// # Errors
 /// What cannot be listed, or has a name that is no Unicode: a table could not tell it from others.

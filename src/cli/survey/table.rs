@@ -1,8 +1,8 @@
 //! The table of a survey: a CSV file that grows by whole rows and can be taken up again after any interruption.
 //!
-//! A row is one line (messages are folded), written at once and synchronized to the disk before the next run counts. So all
-//! that an interruption can leave is a torn last line, which is cut when the file is opened again. The rows of several
-//! shards may simply be concatenated: a header that comes again is skipped.
+//! A row is one line (messages are folded), written at once and synchronized to the disk before the next run counts. So
+//! all that an interruption can leave is a torn last line, which is cut when the file is opened again. The rows of
+//! several shards may simply be concatenated: a header that comes again is skipped.
 
 use super::method::Method;
 use super::models::Model;

@@ -1,5 +1,5 @@
-//! The process of one run: reads a model, checks it or makes a mesh of it and verifies that, and says on its standard output, a JSON value
-//! a line, how far it is and what came of it. Whatever happens to it, happens to this run alone.
+//! The process of one run: reads a model, checks it or makes a mesh of it and verifies that, and says on its standard
+//! output, a JSON value a line, how far it is and what came of it. Whatever happens to it, happens to this run alone.
 //!
 //! Its standard input is the line to its master: when that closes, because time is over or the master is gone, it ends.
 

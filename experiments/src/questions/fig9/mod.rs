@@ -1,15 +1,16 @@
 //! The experiment of §3.4 and Figs. 8 and 9.
 //!
-//! **Question.** How do the times of cavity retriangulation and of flips grow with the size of the cavity, and what does
-//! an exact order of the flips cost compared with the paper's rounded times?
+//! **Question.** How do the times of cavity retriangulation and of flips grow with the size of the cavity, and what
+//! does an exact order of the flips cost compared with the paper's rounded times?
 //!
 //! **Inputs.** Random vertices near the x-y plane and a rectangle in it ([`crate::inputs::slab`]); from about 30
 //! crossing tetrahedra to 100 000, several seeds for each size. A row is the insertion of the rectangle by one method.
 //!
 //! TetGen inserts the same rectangles where it is installed, in its two modes ([`tetgen`]).
 //!
-//! **Columns.** Of `fig9.csv`: [`Row`]; of `fig9-summary.csv`: [`summary::Summary`]; of `fig9-tetgen.csv`: [`tetgen::Row`].
-//! The README of this package has their meaning. Seconds are wall clock of the polygon insertion alone, in one thread.
+//! **Columns.** Of `fig9.csv`: [`Row`]; of `fig9-summary.csv`: [`summary::Summary`]; of `fig9-tetgen.csv`:
+//! [`tetgen::Row`]. The README of this package has their meaning. Seconds are wall clock of the polygon insertion
+//! alone, in one thread.
 //!
 //! **Expected.** Cavities and exact flips always succeed; every success is verified and all of one scene are the same
 //! mesh. Flips with rounded times may fail: then the row has the outcome. Asserted at the end.

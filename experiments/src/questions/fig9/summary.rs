@@ -9,8 +9,8 @@ use serde::Serialize;
 /// Lower bounds of the size classes, in crossing tetrahedra. The last class has no upper bound.
 const CLASSES: [u64; 9] = [0, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000];
 
-/// One method in one size class. A ratio is the median, over the scenes in which both methods succeeded, of the ratio of
-/// their median times.
+/// One method in one size class. A ratio is the median, over the scenes in which both methods succeeded, of the ratio
+/// of their median times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// The least number of crossing tetrahedra in the class.

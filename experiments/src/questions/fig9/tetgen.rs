@@ -1,7 +1,7 @@
 //! TetGen on the same scenes, where it is installed: its cavity retriangulation and its flips, which are rounded.
 //!
-//! Its seconds are those that it prints for the whole of segments and polygons. Each mode runs once more with its output
-//! written, and the output is verified as ours is.
+//! Its seconds are those that it prints for the whole of segments and polygons. Each mode runs once more with its
+//! output written, and the output is verified as ours is.
 
 use super::Row as Ours;
 use crate::inputs::slab::Slab;

@@ -1,7 +1,7 @@
 //! Growth over three orders of magnitude.
 //!
-//! **Question.** How do the times of flips in exact order and of cavity retriangulation grow with the size of the region?
-//! Flips need O(n log n) time for n flips (Shewchuk 2003), cavities little more than linear time in practice.
+//! **Question.** How do the times of flips in exact order and of cavity retriangulation grow with the size of the
+//! region? Flips need O(n log n) time for n flips (Shewchuk 2003), cavities little more than linear time in practice.
 //!
 //! **Inputs.** The scene of the paper's Fig. 8 ([`crate::inputs::slab`]) with 1000 to 1 000 000 crossing
 //! tetrahedra, one seed. A row is the insertion of the rectangle by one method.
@@ -53,7 +53,8 @@ impl Experiment for Growth {
         let mut answer = context.answer();
         let shown = "vertices crossing_tets method repetitions median_seconds microseconds_per_tet peak_megabytes";
         answer.csv("growth", &rows, shown)?;
-        let shown = "method from_vertices to_vertices exponent worst_factor exponent_beyond_n_log_n worst_factor_n_log_n";
+        let shown = "method from_vertices to_vertices exponent worst_factor exponent_beyond_n_log_n \
+                     worst_factor_n_log_n";
         answer.csv("growth-summary", &fit::summaries(&rows, &METHODS), shown)?;
         answer.file("growth.svg", &plot(&rows)?)?;
         answer.expectations = expectations(&rows);

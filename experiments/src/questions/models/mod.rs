@@ -4,9 +4,8 @@
 //!
 //! **Inputs.** One model of each kind, with a size that still shows its facets.
 //!
-//! **Results.** `models/KIND.png`, in grey: facets by their angle to the light, the nearest at every pixel, and their edges.
-//! Of models in a box, or with much inside, what lies on
-//! the bounding box is drawn as lines.
+//! **Results.** `models/KIND.png`, in grey: facets by their angle to the light, the nearest at every pixel, and their
+//! edges. Of models in a box, or with much inside, what lies on the bounding box is drawn as lines.
 //!
 //! **Expected.** Every model is valid ([`tetflip::check`]), and every picture shows it: neither blank nor full.
 

@@ -1,13 +1,13 @@
 //! Beside other programs.
 //!
-//! **Question.** How long does this library take, and how much memory, compared with TetGen and HXT on the same inputs, on
-//! the same machine, at the same time?
+//! **Question.** How long does this library take, and how much memory, compared with TetGen and HXT on the same inputs,
+//! on the same machine, at the same time?
 //!
-//! **Inputs.** Point sets ([`crate::inputs::points`]), generated models, the scenes of `fig9`, and models of the user's ([`plan`]). A row is
-//! one program on one input; all programs take turns on an input, each in a process of its own.
+//! **Inputs.** Point sets ([`crate::inputs::points`]), generated models, the scenes of `fig9`, and models of the user's
+//! ([`plan`]). A row is one program on one input; all programs take turns on an input, each in a process of its own.
 //!
-//! **Columns.** [`row::Row`], [`row::Target`]; the README of this package has their meaning. Seconds are processor time, as
-//! all programs tell it of themselves, of the algorithm alone: reading and writing files is left out.
+//! **Columns.** [`row::Row`], [`row::Target`]; the README of this package has their meaning. Seconds are processor
+//! time, as all programs tell it of themselves, of the algorithm alone: reading and writing files is left out.
 //!
 //! **Expected.** We succeed on every input, and on points in general position all programs give the same number of
 //! tetrahedra; asserted at the end. Of times nothing is asserted: the targets are reached or missed.

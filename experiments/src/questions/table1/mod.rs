@@ -1,16 +1,16 @@
 //! Table 1: statistics of the construction of CDTs.
 //!
-//! **Question.** How many Steiner points, recovered subpolygons, flips and crossing tetrahedra are there in models as people
-//! make them, and what does each phase cost? In the paper, polygons take 4 to 16 per cent of the time, and the two algorithms
-//! differ by less than one per cent of it.
+//! **Question.** How many Steiner points, recovered subpolygons, flips and crossing tetrahedra are there in models as
+//! people make them, and what does each phase cost? In the paper, polygons take 4 to 16 per cent of the time, and the
+//! two algorithms differ by less than one per cent of it.
 //!
-//! **Inputs.** Generated models of the kinds and sizes of the paper's columns, and others ([`crate::inputs::suite`]); with `--models
-//! DIR` every file of a directory that has facets.
+//! **Inputs.** Generated models of the kinds and sizes of the paper's columns, and others ([`crate::inputs::suite`]);
+//! with `--models DIR` every file of a directory that has facets.
 //!
 //! **Columns.** [`Row`], in the order of the paper's rows (1) to (16); the README of this package has their meaning.
 //!
-//! **Expected.** All built-in models have a CDT, cavities, flips and gift wrapping end in the same tetrahedra, and the verifier
-//! accepts them; asserted at the end. Nothing is asserted of times.
+//! **Expected.** All built-in models have a CDT, cavities, flips and gift wrapping end in the same tetrahedra, and the
+//! verifier accepts them; asserted at the end. Nothing is asserted of times.
 
 mod measure;
 pub mod paper;
@@ -40,8 +40,8 @@ impl Experiment for Table1 {
         let mut rows: Vec<Row> = TABLE_1.iter().map(Row::of_paper).collect();
         rows.extend(measured);
         let mut answer = context.answer();
-        let shown = "model beside vertices steiner_points tetrahedra subpolygons recovered flips crossing_tets largest_region \
-                     delaunay_seconds segment_seconds cavity_seconds flip_seconds total_seconds outcome";
+        let shown = "model beside vertices steiner_points tetrahedra subpolygons recovered flips crossing_tets \
+                     largest_region delaunay_seconds segment_seconds cavity_seconds flip_seconds total_seconds outcome";
         answer.csv("table1", &rows, shown)?;
         answer.expectations = expectations(&rows);
         Ok(answer)

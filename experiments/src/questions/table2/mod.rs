@@ -1,10 +1,10 @@
 //! Table 2: what polygon insertion spends its time on.
 //!
-//! **Question.** Which part of the time of each algorithm goes into its tasks? The paper's cavities spend most of it on the
-//! Delaunay tetrahedralizations of the cavities, its flips on computing flip times.
+//! **Question.** Which part of the time of each algorithm goes into its tasks? The paper's cavities spend most of it on
+//! the Delaunay tetrahedralizations of the cavities, its flips on computing flip times.
 //!
-//! **Inputs.** The models of Table 1 ([`crate::inputs::suite`]), and two scenes of `fig9`, whose regions are large. The clock is read at
-//! the ends of the tasks, so that these times are a little longer than those of Table 1.
+//! **Inputs.** The models of Table 1 ([`crate::inputs::suite`]), and two scenes of `fig9`, whose regions are large. The
+//! clock is read at the ends of the tasks, so that these times are a little longer than those of Table 1.
 //!
 //! **Columns.** [`Row`]; the README of this package has their meaning.
 //!
@@ -67,8 +67,8 @@ impl Experiment for Table2 {
         let mut rows = of_paper();
         rows.extend(context.measure(&inputs, |_| 1, |input| input.0.model.clone(), measure));
         let mut answer = context.answer();
-        let shown = "model beside insertion crossing_tets seconds cavity_delaunay cavity_faces polygon_faces merging queueing \
-                     flipping other";
+        let shown = "model beside insertion crossing_tets seconds cavity_delaunay cavity_faces polygon_faces merging \
+                     queueing flipping other";
         answer.csv("table2", &rows, shown)?;
         answer.expectations = expectations(&rows);
         Ok(answer)
@@ -83,8 +83,8 @@ struct Of {
     beside: &'static str,
 }
 
-/// `table2.csv`: one model and one algorithm: shares of its time, in per cent. The README of the package has the meaning of the
-/// columns.
+/// `table2.csv`: one model and one algorithm: shares of its time, in per cent. The README of the package has the
+/// meaning of the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Row {
     of: Of,

@@ -1,17 +1,19 @@
 //! Deleting polygons and inserting them again.
 //!
-//! **Question.** What does it cost to update a CDT, polygon by polygon, compared with building it anew? Does the deletion by
-//! flips in the reversed order of their times (Shewchuk 2003) take about as long as the insertion, and does it give
-//! back the mesh that was there before?
+//! **Question.** What does it cost to update a CDT, polygon by polygon, compared with building it anew? Does the
+//! deletion by flips in the reversed order of their times (Shewchuk 2003) take about as long as the insertion, and does
+//! it give back the mesh that was there before?
 //!
-//! **Inputs.** The scenes of Fig. 8 with 100 to 100 000 crossing tetrahedra, and the generated models of Table 1 ([`crate::inputs::suite`]);
-//! with `--models DIR` those of a directory. Of a model, up to [`measure::MOST_POLYGONS`] polygons, evenly spread over all, are deleted
-//! and inserted by cavity retriangulation, deleted and inserted by flips, one after the other. A row is a scene or a model.
+//! **Inputs.** The scenes of Fig. 8 with 100 to 100 000 crossing tetrahedra, and the generated models of Table 1
+//! ([`crate::inputs::suite`]); with `--models DIR` those of a directory. Of a model, up to [`measure::MOST_POLYGONS`]
+//! polygons, evenly spread over all, are deleted and inserted by cavity retriangulation, deleted and inserted by flips,
+//! one after the other. A row is a scene or a model.
 //!
 //! **Columns.** [`Row`]; the README of this package has their meaning. Seconds are wall clock, in one thread.
 //!
-//! **Expected.** Nothing fails, no deletion of a flat polygon is refused, a scene without its polygon is what it was before,
-//! and in the end every mesh is what it was in the beginning; asserted at the end. Nothing is asserted of times.
+//! **Expected.** Nothing fails, no deletion of a flat polygon is refused, a scene without its polygon is what it was
+//! before, and in the end every mesh is what it was in the beginning; asserted at the end. Nothing is asserted of
+//! times.
 
 mod measure;
 
