@@ -28,6 +28,7 @@ mod surface_formats;
 mod survey;
 mod verify_islands;
 mod verify_listed;
+mod verify_mutations;
 mod verify_rejects;
 mod verify_threads;
 mod verify_tolerance;

@@ -221,3 +221,72 @@ fn any_triangulation_is_all_but_delaunay() {
     let half = mesh(&vertices, &TWO[..1]);
     assert!(!verify(&plc, &half, any).is_ok());
 }
+
+/// A patch on the floor of a box, with the same marker or another one: only in the first case its edges may be gone.
+#[test]
+fn a_facet_inside_another_one() {
+    let (mut plc, _) = cube();
+    let corners = [[0.25, 0.25, 0.0], [0.75, 0.25, 0.0], [0.5, 0.75, 0.0]];
+    plc.vertices.extend(corners);
+    plc.facets.push(facet(&[8, 9, 10]));
+    // From vertex 7 over the floor with the patch, and over the two sides that do not have 7.
+    let floor = [
+        [8, 9, 10],
+        [0, 1, 8],
+        [1, 9, 8],
+        [1, 3, 9],
+        [3, 10, 9],
+        [3, 2, 10],
+        [2, 8, 10],
+        [2, 0, 8],
+    ];
+    let without_patch = [
+        [0, 1, 9],
+        [0, 9, 8],
+        [1, 3, 9],
+        [8, 9, 10],
+        [3, 10, 9],
+        [3, 2, 10],
+        [2, 8, 10],
+        [2, 0, 8],
+    ];
+    let flipped = [
+        [0, 1, 9],
+        [0, 9, 2],
+        [2, 9, 10],
+        [1, 3, 9],
+        [3, 10, 9],
+        [3, 2, 10],
+    ];
+    let sides = [[0, 1, 5], [0, 5, 4], [0, 2, 6], [0, 6, 4]];
+    let fan = |floor: &[[u32; 3]], vertices: usize| {
+        let triangles = floor.iter().chain(&sides);
+        let tets: Vec<[u32; 4]> = triangles.map(|&[a, b, c]| [7, a, b, c]).collect();
+        mesh(&plc.vertices[..vertices], &tets)
+    };
+    let any = VerifyOptions {
+        any_triangulation: true,
+        ..VerifyOptions::default()
+    };
+    for floor in [floor, without_patch] {
+        assert_kinds(&verify(&plc, &fan(&floor, 11), any), &[]);
+    }
+    // A mesh without vertex 8 and so without two of the edges of the patch.
+    let mut patched = plc.clone();
+    patched.vertices[8] = plc.vertices[9];
+    patched.facets.pop();
+    patched.facets.push(facet(&[9, 10, 2]));
+    let kept = verify(&patched, &fan(&flipped, 11), any);
+    assert_kinds(&kept, &[]);
+    // The patch 1, 10, 2 is cut by the edges of this mesh.
+    let mut crossed = patched.clone();
+    crossed.facets.pop();
+    crossed.facets.push(facet(&[1, 10, 2]));
+    let same = verify(&crossed, &fan(&flipped, 11), any);
+    assert_kinds(&same, &[]);
+    assert!(same.counts.segments_merged > 0, "{same}");
+    let last = crossed.facets.len() - 1;
+    crossed.facets[last].marker = 6;
+    let other = verify(&crossed, &fan(&flipped, 11), any);
+    assert!(other.totals.contains_key("missing segment"), "{other}");
+}

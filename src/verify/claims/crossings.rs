@@ -14,7 +14,7 @@ use crate::number::Sign;
 use crate::threads;
 use crate::verify::case::Case;
 use crate::verify::claims::facets::covering::Cover;
-use crate::verify::lookup::boxes::{Bounds, Boxes};
+use crate::verify::lookup::boxes::Boxes;
 use crate::verify::signs::points::Points;
 use crate::verify::verdict::Findings;
 use crate::verify::violation::Violation;
@@ -40,9 +40,14 @@ pub(crate) fn check(case: &Case, cover: &Cover, findings: &mut Findings) {
         return;
     }
     let key = |i: usize| case.tables.faces[faces[i]].key;
+    // The faces on one group of facets are projected one to one onto it, and do not cross each other.
+    let is_of_other = |i: usize, j: usize| {
+        let [own, other] = [i, j].map(|i| cover.first_facet_at(faces[i]));
+        own.is_none() || own != other
+    };
     let tree = Boxes::new(
         (0..faces.len())
-            .map(|i| bounds(case.points, &key(i)))
+            .map(|i| case.points.bounds(&key(i)))
             .collect(),
     );
     let parts = threads::in_parts(asked.len(), FEW, |range| {
@@ -51,7 +56,7 @@ pub(crate) fn check(case: &Case, cover: &Cover, findings: &mut Findings) {
             tree.meeting(i, &mut near);
             near.sort_unstable();
             let others = near.iter().map(|&j| j as usize);
-            let others = others.filter(|&j| j != i && (j > i || !suspects[j]));
+            let others = others.filter(|&j| (j > i || !suspects[j]) && is_of_other(i, j));
             crossing.extend(
                 others
                     .filter(|&j| cross(case.points, key(i), key(j)))
@@ -66,15 +71,6 @@ pub(crate) fn check(case: &Case, cover: &Cover, findings: &mut Findings) {
             tets: pair.map(|i| case.tables.faces[faces[i]].first().tet()),
         });
     }
-}
-
-fn bounds(points: &Points, key: &[VertexId; 3]) -> Bounds {
-    let wobble = points.wobble(key);
-    let [a, b, c] = key.map(|v| points.at(v));
-    [
-        [0, 1, 2].map(|k| a[k].min(b[k]).min(c[k]) - wobble),
-        [0, 1, 2].map(|k| a[k].max(b[k]).max(c[k]) + wobble),
-    ]
 }
 
 /// Whether two triangles without a common edge meet beyond their common vertex, if they have one.

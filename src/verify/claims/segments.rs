@@ -29,6 +29,8 @@ pub(crate) enum Fate {
     Chain(Vec<VertexId>),
     /// It is gone because the two facets at it are one.
     Merged,
+    /// It is gone because all around it are coplanar facets, which overlap, with the same markers on both sides: these.
+    Absorbed(Vec<usize>),
     /// It lies outside the domain.
     Outside,
     /// It should be there and is not.
@@ -85,7 +87,7 @@ fn fate(case: &Case, e: usize, listed: &Listed, findings: &mut Findings) -> Fate
     } else if leaves(case, edge.ends) {
         Fate::Outside
     } else {
-        Fate::Missing
+        absorbed(case, e).map_or(Fate::Missing, Fate::Absorbed)
     };
     let counts = &mut findings.counts;
     match &fate {
@@ -104,7 +106,7 @@ fn fate(case: &Case, e: usize, listed: &Listed, findings: &mut Findings) -> Fate
                 }
             }
         }
-        Fate::Merged => counts.segments_merged += 1,
+        Fate::Merged | Fate::Absorbed(_) => counts.segments_merged += 1,
         Fate::Outside => counts.segments_outside += 1,
         Fate::Missing => report(case, e, findings),
     }
@@ -228,6 +230,52 @@ fn is_mergeable(case: &Case, e: usize) -> bool {
         sides,
         [Some([true, false]), Some([false, true])] | [Some([false, true]), Some([true, false])]
     )
+}
+
+/// The facets around an edge, if all of them are exactly coplanar and the markers of those on both sides are the same: an
+/// edge of one facet inside another one, or of several that overlap.
+fn absorbed(case: &Case, e: usize) -> Option<Vec<usize>> {
+    let edge = &case.input.edges[e];
+    let first = *edge.facets.first().filter(|_| !edge.explicit)?;
+    let frame = case.input.facets[first].frame?;
+    let axes = axes_of(case, frame)?;
+    let on_plane = |f: usize| {
+        let mut vertices = case.input.facets[f].vertices.iter();
+        vertices.all(|&v| case.points.is_on_plane(frame, v))
+    };
+    let mut around = Vec::new();
+    let mut markers = [Vec::new(), Vec::new()];
+    for f in case.input.facets_near(case.points, &edge.ends) {
+        let facet = &case.input.facets[f];
+        let is_own = edge.facets.contains(&f);
+        if facet.frame.is_none() || !on_plane(f) {
+            if is_own {
+                return None;
+            }
+            continue;
+        }
+        let edges: Vec<_> = facet
+            .edges
+            .iter()
+            .map(|&e| case.input.edges[e].ends)
+            .collect();
+        let area = Area::new(case.points, axes, &edges, &facet.holes);
+        let inside = || area.is_kept(area.cell_at(&edge.ends));
+        let sides = area.sides(edge.ends).unwrap_or_else(|| [inside(); 2]);
+        for (side, markers) in sides.into_iter().zip(&mut markers) {
+            if side {
+                markers.extend(case.input.markers_of(case.plc, f));
+            }
+        }
+        if sides.contains(&true) {
+            around.push(f);
+        }
+    }
+    for markers in &mut markers {
+        markers.sort_unstable();
+        markers.dedup();
+    }
+    (!markers[0].is_empty() && markers[0] == markers[1]).then_some(around)
 }
 
 fn within_angle(case: &Case, p: [VertexId; 3], q: [VertexId; 3]) -> bool {

@@ -12,10 +12,12 @@ use crate::mesh::VertexId;
 use crate::number::vector::{cross, dot, minus};
 use crate::number::{Dyadic, Vec3};
 use crate::threads;
+use crate::verify::lookup::boxes::Boxes;
 use crate::verify::lookup::places::Places;
 use crate::verify::signs::points::Points;
 use edges::InputEdge;
 use rustc_hash::FxHashMap;
+use std::sync::OnceLock;
 
 /// Fewer elements are one thread's work.
 const FEW: usize = 1 << 12;
@@ -58,6 +60,8 @@ pub(crate) struct Input {
     repeated: Vec<(usize, usize)>,
     /// The same the other way round.
     repeats: Vec<(usize, usize)>,
+    /// The boxes of the facets; of use where facets overlap only.
+    boxes: OnceLock<Boxes>,
 }
 
 impl Input {
@@ -169,6 +173,7 @@ impl Input {
                 coincident,
                 places,
                 repeats,
+                boxes: OnceLock::new(),
                 repeated,
             },
             points,
@@ -183,6 +188,19 @@ impl Input {
     /// Whether the facet is equal to an earlier one, which stands for both.
     pub(crate) fn is_repeated(&self, facet: usize) -> bool {
         !self.repeated.is_empty() && self.repeated.binary_search_by_key(&facet, |r| r.0).is_ok()
+    }
+
+    /// The facets, without repetitions, whose boxes meet that of some points.
+    pub(crate) fn facets_near(&self, points: &Points, near: &[VertexId]) -> Vec<usize> {
+        let boxes = self.boxes.get_or_init(|| {
+            let facets = self.facets.iter();
+            Boxes::new(facets.map(|f| points.bounds(&f.vertices)).collect())
+        });
+        let mut found = Vec::new();
+        boxes.meeting_box(&points.bounds(near), &mut found);
+        found.sort_unstable();
+        let facets = found.into_iter().map(|f| f as usize);
+        facets.filter(|&f| !self.is_repeated(f)).collect()
     }
 
     /// The markers of a facet and of those that are equal to it, without repetition, in increasing order.

@@ -85,8 +85,12 @@ impl Boxes {
 
     /// The boxes that meet the `i`-th one, itself included, in no order.
     pub(crate) fn meeting(&self, i: usize, found: &mut Vec<u32>) {
+        self.meeting_box(&self.boxes[i], found);
+    }
+
+    /// The boxes that meet another one, in no order.
+    pub(crate) fn meeting_box(&self, own: &Bounds, found: &mut Vec<u32>) {
         found.clear();
-        let own = &self.boxes[i];
         let mut stack = vec![0];
         while let Some(n) = stack.pop() {
             let node = &self.nodes[n];

@@ -178,6 +178,19 @@ impl Points {
         &self.coordinates
     }
 
+    /// A box that holds some points.
+    pub(crate) fn bounds(&self, points: &[VertexId]) -> [[f64; 3]; 2] {
+        let wobble = self.wobble(points);
+        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for &v in points {
+            for (k, x) in self.at(v).into_iter().enumerate() {
+                bounds[0][k] = bounds[0][k].min(x - wobble);
+                bounds[1][k] = bounds[1][k].max(x + wobble);
+            }
+        }
+        bounds
+    }
+
     /// How many points there are.
     pub(crate) fn len(&self) -> usize {
         self.coordinates.len()

@@ -122,7 +122,7 @@ fn polygon(case: &Case, fates: &[Fate], f: usize, axes: [usize; 2]) -> Option<Ve
                     }
                 }));
             }
-            Fate::Outside | Fate::Missing => return None,
+            Fate::Absorbed(_) | Fate::Outside | Fate::Missing => return None,
         }
     }
     match sign_of_area(case.points, axes, edges.iter().chain(&merged).copied()) {
@@ -141,7 +141,7 @@ fn cells(case: &Case, fates: &[Fate], f: usize, axes: [usize; 2]) -> Option<Vec<
     for &e in &facet.edges {
         let ends = case.input.edges[e].ends;
         match &fates[e] {
-            Fate::Outside | Fate::Missing => return None,
+            Fate::Absorbed(_) | Fate::Outside | Fate::Missing => return None,
             Fate::Merged => merged.push(ends),
             Fate::Edge | Fate::Chain(_) => {}
         }

@@ -35,6 +35,8 @@ pub(crate) struct Group<'a> {
     edges: Vec<[VertexId; 2]>,
     /// The edges that were merged away.
     merged: FxHashSet<[VertexId; 2]>,
+    /// Whether facets of it overlap, so that some of those edges are inside others.
+    overlaps: bool,
     /// Sorted.
     vertices: Vec<VertexId>,
     /// The chains in place of edges that a vertex is on, and where in them.
@@ -68,9 +70,11 @@ impl<'a> Group<'a> {
             let intervals: Vec<[f64; 2]> = boxes.iter().map(|b: &[[f64; 2]; 2]| b[1]).collect();
             Slabs::new(&intervals)
         });
+        let mut all = facets.iter().flat_map(|&f| &case.input.facets[f].edges);
+        let overlaps = all.any(|&e| matches!(fates[e], Fate::Absorbed(_)));
         let own_edges = facets.iter().flat_map(|&f| &case.input.facets[f].edges);
         let merged = own_edges
-            .filter(|&&e| fates[e] == Fate::Merged)
+            .filter(|&&e| matches!(fates[e], Fate::Merged | Fate::Absorbed(_)))
             .map(|&e| case.input.edges[e].ends)
             .collect();
         let own = facets
@@ -101,6 +105,7 @@ impl<'a> Group<'a> {
             planes,
             edges,
             merged,
+            overlaps,
             vertices,
         })
     }
@@ -123,6 +128,9 @@ impl<'a> Group<'a> {
         let candidates = self.candidates(&mut filled);
         cover.add_candidates(&candidates, self.facets[0]);
         self.exempt(&filled, cover, findings);
+        if self.overlaps {
+            self.areas = vec![self.union()];
+        }
         let expected = self.expected();
         let given = candidates.iter().copied().filter(|&f| listed[f]);
         let needed = |f: usize| is_needed(self.case, f);
@@ -311,6 +319,32 @@ impl<'a> Group<'a> {
                 area.drop_cell(cell);
             }
         }
+    }
+
+    /// The area of all facets together, as far as it is not exempt, divided by the edges that were not merged away.
+    fn union(&self) -> Area<'a> {
+        let edges = self
+            .edges
+            .iter()
+            .copied()
+            .filter(|e| !self.merged.contains(e));
+        let edges: Vec<[VertexId; 2]> = edges.collect();
+        let mut whole = Area::new(self.case.points, self.axes, &edges, &[]);
+        for cell in whole.kept_cells() {
+            // A facet is on the left of an edge of the cell, or holds its middle.
+            let has = |area: &Area, edge: [VertexId; 2]| match area.sides(edge) {
+                Some([left, _]) => left,
+                None => area.is_kept(area.cell_at(&edge)),
+            };
+            let around = whole.edges_around(cell);
+            let is_covered = around
+                .first()
+                .is_some_and(|&e| self.areas.iter().any(|a| has(a, e)));
+            if !is_covered {
+                whole.drop_cell(cell);
+            }
+        }
+        whole
     }
 
     /// A part of the candidates that covers the group, if one is found: with those that are wanted, if possible.

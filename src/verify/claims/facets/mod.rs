@@ -150,8 +150,13 @@ fn groups(case: &Case, fates: &[Fate]) -> Vec<(usize, usize)> {
         f
     }
     for (edge, fate) in case.input.edges.iter().zip(fates) {
-        if let (Fate::Merged, [f, g]) = (fate, &edge.facets[..]) {
-            let (f, g) = (find(&mut leader, *f), find(&mut leader, *g));
+        let joined = match fate {
+            Fate::Merged => &edge.facets[..],
+            Fate::Absorbed(around) => around,
+            _ => continue,
+        };
+        for pair in joined.windows(2) {
+            let (f, g) = (find(&mut leader, pair[0]), find(&mut leader, pair[1]));
             leader[f.max(g)] = f.min(g);
         }
     }
