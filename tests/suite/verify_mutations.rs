@@ -150,3 +150,24 @@ fn no_hull_is_accepted_for_a_solid() {
         assert_kinds(&verify(&plc, &bare, asked), &[]);
     }
 }
+
+/// Where both sides of a shim on a facet are on the hull, both are listed: one of them covers the facet.
+#[test]
+fn hulls_of_bent_pipes_are_accepted() {
+    for (seed, size) in [(3, 60), (1, 80), (2, 80)] {
+        let plc = generate(Kind::Bend, seed, size);
+        let options = Options {
+            keep_hull: true,
+            ..Options::default()
+        };
+        let hull = tetrahedralize(&plc, &options, &mut Report::default(), &mut |_| ());
+        let mut hull = hull.expect("a mesh");
+        let asked = VerifyOptions {
+            domain: tetflip::verify::Domain::Hull,
+            ..VerifyOptions::default()
+        };
+        assert_kinds(&verify(&plc, &hull, asked), &[]);
+        hull.faces.clear();
+        assert_kinds(&verify(&plc, &hull, asked), &[]);
+    }
+}

@@ -136,8 +136,9 @@ impl<'a> Group<'a> {
         let needed = |f: usize| is_needed(self.case, f);
         // Where the mesh is convex, the faces of its hull are listed, too, whether on a facet or not.
         let given_inside = |f: usize| listed[f] && self.case.tables.faces[f].is_shared();
-        let choices: [&dyn Fn() -> Vec<usize>; 4] = [
+        let choices: [&dyn Fn() -> Vec<usize>; 5] = [
             &|| given.clone().collect(),
+            &|| self.chosen(&given.clone().collect::<Vec<_>>(), &expected, &needed),
             &|| match candidates.iter().any(|&f| given_inside(f)) {
                 true => self.chosen(&candidates, &expected, &given_inside),
                 false => Vec::new(),
@@ -162,7 +163,7 @@ impl<'a> Group<'a> {
                     }
                 }
                 // Of the failures, that of all candidates says most.
-                Some(misfit) if i == 2 => first_misfit = Some(misfit),
+                Some(misfit) if i == 3 => first_misfit = Some(misfit),
                 Some(_) => {}
             }
         }

@@ -17,9 +17,10 @@
 //! face of S is turned over: S is projected one to one onto the group. In a flat facet without rounded points all
 //! candidates together are the only choice. Nearly flat vertices permit thin tetrahedra between candidates ("shims":
 //! all four faces are candidates), and so several surfaces. Tried in this order: the listed faces of the mesh; a part
-//! of the candidates that is searched for ([`choice`]), with the listed faces inside the mesh; all candidates; a part
-//! with those that are *needed*, as they are not locally Delaunay or separate region attributes. The first that leaves
-//! no candidate that is needed is taken, else the first that covers the group.
+//! of these (where the hull is kept, its faces are listed, too); a part of the candidates that is searched for
+//! ([`choice`]), with the listed faces inside the mesh; all candidates; a part with those that are *needed*, as they
+//! are not locally Delaunay or separate region attributes. The first that leaves no candidate that is needed is
+//! taken, else the first that covers the group.
 //!
 //! A part of a facet (a cell of [`Area`]) is outside the domain, and exempt, if no candidate lies in it and a step
 //! from one of its convex corners into it enters no tetrahedron. The facets of a PLC intersect in common segments
