@@ -49,6 +49,7 @@ pub mod number;
 pub mod plc;
 pub mod predicate;
 pub mod recover;
+pub mod repair;
 pub mod report;
 mod threads;
 pub mod update;

@@ -7,7 +7,7 @@
 use crate::number::Sign;
 use crate::plc::{in_box, on_segment, orient2d, orient3d};
 
-type Point = [f64; 3];
+pub(super) type Point = [f64; 3];
 type Edge = [Point; 2];
 type Triangle = [Point; 3];
 
@@ -118,4 +118,42 @@ pub(super) fn edge_meets_triangle([p, q]: Edge, t: Triangle) -> bool {
             orient3d([p, q, c, a]),
         ]),
     }
+}
+
+/// Whether two edges cross in a point that is inside of both.
+pub(super) fn edges_cross([a, b]: Edge, [c, d]: Edge) -> bool {
+    if !orient3d([a, b, c, d]).is_zero() {
+        return false;
+    }
+    let Some(axis) = axis_of([a, b, c]) else {
+        return false;
+    };
+    on_different_sides_flat([a, b].map(|p| drop(axis, p)), [c, d].map(|p| drop(axis, p)))
+        && on_different_sides_flat([c, d].map(|p| drop(axis, p)), [a, b].map(|p| drop(axis, p)))
+}
+
+/// Whether two points are strictly on different sides of the line through an edge; all are in one plane.
+pub(super) fn on_different_sides([a, b]: Edge, c: Point, d: Point) -> bool {
+    let Some(axis) = axis_of([a, b, c]) else {
+        return false;
+    };
+    on_different_sides_flat([a, b].map(|p| drop(axis, p)), [c, d].map(|p| drop(axis, p)))
+}
+
+fn on_different_sides_flat([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    (orient2d(a, b, c) * orient2d(a, b, d)).is_negative()
+}
+
+/// Whether an edge passes through a triangle that is not degenerate in a point that is inside of both.
+pub(super) fn edge_pierces([p, q]: Edge, [a, b, c]: Triangle) -> bool {
+    let [first, second] = [p, q].map(|e| orient3d([a, b, c, e]));
+    if !(first * second).is_negative() {
+        return false;
+    }
+    let signs = [
+        orient3d([p, q, a, b]),
+        orient3d([p, q, b, c]),
+        orient3d([p, q, c, a]),
+    ];
+    signs.iter().all(|s| s.is_positive()) || signs.iter().all(|s| s.is_negative())
 }

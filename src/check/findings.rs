@@ -18,6 +18,14 @@ pub enum Part {
 }
 
 impl Part {
+    /// The facet, if it is one.
+    pub fn facet(self) -> Option<usize> {
+        match self {
+            Part::Facet(index) => Some(index),
+            Part::Segment(_) | Part::Vertex(_) => None,
+        }
+    }
+
     /// The part in a message.
     pub fn name(self, plc: &Plc) -> String {
         match self {
@@ -123,6 +131,8 @@ pub struct Conflict {
     pub parts: [Part; 2],
     /// A point of the intersection: computed exactly, then each coordinate rounded to a double next to it.
     pub point: [f64; 3],
+    /// Whether these two parts can be made to fit without a new vertex ([`crate::repair`]).
+    pub repairable: bool,
 }
 
 impl Conflict {
@@ -180,9 +190,9 @@ pub struct Notes {
     pub duplicate_vertices: Vec<[VertexId; 2]>,
     /// Vertices that no facet and no segment refers to.
     pub unused_vertices: Vec<VertexId>,
-    /// Edges that bound one facet only: the surface is open there.
+    /// Edges with a facet on one side only: the surface is open there.
     pub open_edges: Vec<[VertexId; 2]>,
-    /// Edges that bound more than two facets, and how many.
+    /// Edges with facets on more than two sides, and how many. An edge inside a facet has it on both sides.
     pub branching_edges: Vec<([VertexId; 2], usize)>,
 }
 
@@ -204,5 +214,11 @@ impl Findings {
     /// Whether the PLC is valid.
     pub fn is_valid(&self) -> bool {
         self.errors.is_empty() && self.conflicts.is_empty()
+    }
+
+    /// Whether all that is wrong is what [`crate::repair`] mends, as far as the search went.
+    pub fn is_repairable(&self) -> bool {
+        self.errors.iter().all(PlcError::is_repairable)
+            && self.conflicts.iter().all(|conflict| conflict.repairable)
     }
 }

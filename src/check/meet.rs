@@ -8,7 +8,7 @@ use crate::number::{Dyadic, Exact, Number, Sign, Vec3};
 
 /// A triangle, an edge or a vertex of a part.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Simplex {
+pub(crate) struct Simplex {
     /// The corners; of an edge or a vertex the last is repeated.
     pub corners: [VertexId; 3],
     /// Whether the edges from corner 0, 1 and 2 to the next are declared, not diagonals of a triangulation.

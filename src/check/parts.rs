@@ -15,7 +15,7 @@ use crate::plc::{
 use std::ops::Range;
 
 /// An edge of some parts.
-pub(super) struct Edge {
+pub(crate) struct Edge {
     /// The ends in increasing order.
     pub ends: [VertexId; 2],
     /// Its owners, a range of [`Parts::edge_owners`].
@@ -24,7 +24,7 @@ pub(super) struct Edge {
 
 /// A part that has an edge.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Owner {
+pub(crate) struct Owner {
     /// The index of the part.
     pub part: u32,
     /// Whether it declares the edge, which is otherwise a diagonal of its triangulation.
@@ -33,7 +33,7 @@ pub(super) struct Owner {
 
 /// The parts of a PLC.
 #[derive(Default)]
-pub(super) struct Parts {
+pub(crate) struct Parts {
     /// The first vertex with the coordinates of each.
     pub representative: Vec<VertexId>,
     /// The valid facets, then the segments that are not edges of those, then the vertices of neither.
@@ -48,7 +48,8 @@ pub(super) struct Parts {
     pub outlines: Vec<Vec<[VertexId; 2]>>,
     /// What is wrong with facets and segments, each for itself.
     pub errors: Vec<PlcError>,
-    /// Edges of facets with the number of facets on them, those that bound area; increasing.
+    /// Edges of facets with the number of their sides where there is a facet; increasing. An edge that floats in a
+    /// facet has it on both sides.
     pub bounding: Vec<([VertexId; 2], usize)>,
     /// Vertices of facets or segments, valid or not.
     pub used: Vec<bool>,
@@ -143,11 +144,7 @@ impl Parts {
             .inspect_err(|_| sides.extend(closing_edges(&facet)))?;
         let mut once: Vec<_> = polygon.edges.iter().copied().map(undirected).collect();
         once.sort_unstable();
-        sides.extend(
-            once.chunk_by(|e, f| e == f)
-                .filter(|c| c.len() == 1)
-                .map(|c| c[0]),
-        );
+        sides.extend(&once);
         once.dedup();
         let mut simplices = match (&polygon.edges[..], &facet.polygons[..]) {
             ([_, _, _], [corners]) if corners.len() == 3 => vec![Simplex {

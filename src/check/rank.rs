@@ -4,7 +4,8 @@ use super::findings::{Conflict, Kind, Part};
 use super::meet::{Meet, Place, Simplex, meet};
 use super::parts::Parts;
 
-/// The conflict of two parts that are known to be in conflict, by their indices.
+/// The conflict of two parts that are known to be in conflict, by their indices. Whether it is repairable is not known
+/// here.
 ///
 /// All pairs of their simplices whose bounding boxes overlap are examined, those found by a sweep along the first axis.
 pub(super) fn conflict(points: &[[f64; 3]], parts: &Parts, pair: [usize; 2]) -> Conflict {
@@ -31,7 +32,12 @@ pub(super) fn conflict(points: &[[f64; 3]], parts: &Parts, pair: [usize; 2]) -> 
         };
         if worst.is_none_or(|w| kind < w.kind) {
             let point = found.point;
-            worst = Some(Conflict { kind, parts, point });
+            worst = Some(Conflict {
+                kind,
+                parts,
+                point,
+                repairable: false,
+            });
         }
     }
     worst.expect("parts in contact have a conflict")
@@ -49,7 +55,8 @@ fn triangles(simplices: &[Simplex]) -> Vec<[crate::mesh::VertexId; 3]> {
     triangles
 }
 
-/// The kind of an intersection, and whether the parts change places in it; `None` if it is in a vertex or an edge of both.
+/// The kind of an intersection, and whether the parts change places in it; `None` if it is in a vertex or an edge of
+/// both.
 fn kind(meet: &Meet) -> Option<(Kind, bool)> {
     use Place::{Edge, Interior, Vertex};
     Some(match (meet.dimension, meet.places) {
@@ -72,7 +79,7 @@ fn kind(meet: &Meet) -> Option<(Kind, bool)> {
 }
 
 /// Pairs of simplices of two lists whose bounding boxes overlap.
-fn candidates<'s>(
+pub(super) fn candidates<'s>(
     points: &[[f64; 3]],
     lists: [&'s [Simplex]; 2],
 ) -> Vec<(&'s Simplex, &'s Simplex)> {

@@ -7,8 +7,9 @@ use std::ops::ControlFlow;
 const SHARED: usize = 1 << 12;
 
 impl Simplices<'_> {
-    /// Visits the pairs of [`Simplices::pairs`] by all threads: each collects what `visit` makes of some of the pairs, and `join` joins two such collections.
-    /// Which pairs are visited does not depend on the number of threads; what is collected must not depend on their order.
+    /// Visits the pairs of [`Simplices::pairs`] by all threads: each collects what `visit` makes of some of the pairs,
+    /// and `join` joins two such collections. Which pairs are visited does not depend on the number of threads; what is
+    /// collected must not depend on their order.
     pub fn collect<T: Default + Send>(
         &self,
         visit: &(dyn Fn(usize, usize, &mut T) + Sync),

@@ -1,18 +1,19 @@
 //! The broad phase: pairs of simplices (vertices, edges, triangles) that may touch, found by dividing space.
 //!
-//! A k-d tree of cells, built and left in one traversal: a cell with many simplices is cut in two at the median of their
-//! centres, and a simplex goes to both halves only if it reaches into both. Of long simplices, which a bounding box
-//! describes badly, that is decided by separating axes (Akenine-Möller, *Fast 3D triangle-box overlap testing*, 2001) in
-//! doubles with a margin for their rounding, so that no simplex is lost. Where no cut across a coordinate axis helps,
-//! because long simplices run side by side in another direction, a cut along that direction is tried.
+//! A k-d tree of cells, built and left in one traversal: a cell with many simplices is cut in two at the median of
+//! their centres, and a simplex goes to both halves only if it reaches into both. Of long simplices, which a bounding
+//! box describes badly, that is decided by separating axes (Akenine-Möller, *Fast 3D triangle-box overlap testing*,
+//! 2001) in doubles with a margin for their rounding, so that no simplex is lost. Where no cut across a coordinate axis
+//! helps, because long simplices run side by side in another direction, a cut along that direction is tried.
 //!
-//! Only pairs without a common vertex are wanted. Where all simplices of a cell share a vertex there are none, so that a
-//! fan of any number of triangles costs nothing at its apex. Where many triangles share an edge, the pages of a book, they are
-//! parted by planes through its spine, exactly.
+//! Only pairs without a common vertex are wanted. Where all simplices of a cell share a vertex there are none, so that
+//! a fan of any number of triangles costs nothing at its apex. Where many triangles share an edge, the pages of a book,
+//! they are parted by planes through its spine, exactly.
 //!
-//! O(n log n) for n simplices of bounded overlap, for fans and for books. Where cutting does not help, all pairs of the cell are
-//! tried, except those within the simplices that share the commonest vertex.
+//! O(n log n) for n simplices of bounded overlap, for fans and for books. Where cutting does not help, all pairs of the
+//! cell are tried, except those within the simplices that share the commonest vertex.
 
+use super::reach::{range_in_cell, separated};
 use crate::mesh::VertexId;
 use crate::number::Sign;
 use crate::number::vector::cross;
@@ -41,13 +42,16 @@ pub(super) struct Simplices<'a> {
     boxes: Vec<Bounds>,
     /// The first edge and the first triangle; vertices come before, so that dimensions are in order.
     starts: [usize; 2],
+    /// Which simplices belong to one triangulation of space, so that pairs of them are not wanted; empty if none is
+    /// known to.
+    known: &'a [bool],
 }
 
 /// An axis-parallel box.
 #[derive(Clone, Copy)]
 pub(super) struct Bounds {
-    low: Point,
-    high: Point,
+    pub low: Point,
+    pub high: Point,
 }
 
 /// All of space.
@@ -58,7 +62,7 @@ pub(super) const EVERYTHING: Bounds = Bounds {
 
 /// What becomes of the simplices of a cell.
 pub(super) enum Step {
-    /// They have a common vertex.
+    /// No pair of them is wanted.
     Nothing,
     /// All pairs are visited.
     Compare(Vec<u32>),
@@ -83,8 +87,14 @@ impl Bounds {
 pub(super) type Visit<'v> = &'v mut dyn FnMut(usize, usize) -> ControlFlow<()>;
 
 impl<'a> Simplices<'a> {
-    /// `corners` holds vertices, then edges, then triangles, which begin at `starts`.
-    pub fn new(points: &'a [Point], corners: &'a [Corners], starts: [usize; 2]) -> Self {
+    /// `corners` holds vertices, then edges, then triangles, which begin at `starts`. Those that are `known`, if that
+    /// is not empty, belong to one triangulation of space: they touch in common vertices and edges only.
+    pub fn new(
+        points: &'a [Point],
+        corners: &'a [Corners],
+        starts: [usize; 2],
+        known: &'a [bool],
+    ) -> Self {
         let bounds = |corners: &Corners| {
             let [a, b, c] = corners.map(|v| points[v.index()]);
             Bounds {
@@ -97,11 +107,16 @@ impl<'a> Simplices<'a> {
             corners,
             boxes: corners.iter().map(bounds).collect(),
             starts,
+            known,
         }
     }
 
-    /// Visits all pairs that have no common vertex and may have a common point: vertices with edges and triangles, edges
-    /// with edges and triangles. Some pairs are visited more than once.
+    fn is_known(&self, i: usize) -> bool {
+        self.known.get(i) == Some(&true)
+    }
+
+    /// Visits all pairs that have no common vertex and may have a common point: vertices with edges and triangles,
+    /// edges with edges and triangles. Some pairs are visited more than once.
     pub fn pairs(&self, visit: Visit) -> ControlFlow<()> {
         let all: Vec<u32> = (0..self.corners.len()).map(|i| i as u32).collect();
         self.divide(&EVERYTHING, all, DEEPEST, visit)
@@ -126,6 +141,9 @@ impl<'a> Simplices<'a> {
 
     /// What to do with the simplices of a cell.
     pub(super) fn step(&self, cell: &Bounds, list: Vec<u32>, depth: usize) -> Step {
+        if list.iter().all(|&i| self.is_known(i as usize)) {
+            return Step::Nothing;
+        }
         if list.len() <= SMALL || depth == 0 {
             return Step::Compare(list);
         }
@@ -249,12 +267,12 @@ impl<'a> Simplices<'a> {
         self.helps(list, &halves).then_some(halves)
     }
 
-    /// Cuts a list in which many simplices share an edge ab, the spine of a book, by a plane through a, b and the vertex of
-    /// a page in the middle; `None` if that would not help.
+    /// Cuts a list in which many simplices share an edge ab, the spine of a book, by a plane through a, b and the
+    /// vertex of a page in the middle; `None` if that would not help.
     ///
     /// A simplex on one side, apart from a and b, and one on the other side have nothing in common, if they have no
-    /// common vertex: it would be in the plane, where each has a face of ab, and these are different ends or nothing. So what goes to
-    /// one half only is decided by exact signs, but no simplex has to be clear of the spine.
+    /// common vertex: it would be in the plane, where each has a face of ab, and these are different ends or nothing.
+    /// So what goes to one half only is decided by exact signs, but no simplex has to be clear of the spine.
     fn cut_book(&self, list: &[u32]) -> Option<[Vec<u32>; 2]> {
         /// Fewer pages are compared soon.
         const PAGES: usize = 2 * SMALL;
@@ -320,8 +338,8 @@ impl<'a> Simplices<'a> {
         fewer.then_some(halves)
     }
 
-    /// Whether a cut leaves clearly fewer pairs. Pairs that share the commonest vertex count only where that matters: about
-    /// the apex of a fan, which one of the halves has to hold, the simplices of the fan cannot be parted.
+    /// Whether a cut leaves clearly fewer pairs. Pairs that share the commonest vertex count only where that matters:
+    /// about the apex of a fan, which one of the halves has to hold, the simplices of the fan cannot be parted.
     fn helps(&self, list: &[u32], halves: &[Vec<u32>; 2]) -> bool {
         /// Shorter lists are compared soon anyway.
         const LONG: usize = 200;
@@ -379,6 +397,9 @@ impl<'a> Simplices<'a> {
                 if i >= triangles || j < edges || !self.boxes[i].overlaps(&self.boxes[j]) {
                     continue;
                 }
+                if self.is_known(i) && self.is_known(j) {
+                    continue;
+                }
                 let [p, q] = [self.corners[i], self.corners[j]];
                 if !p.iter().any(|v| q.contains(v)) {
                     visit(i, j)?;
@@ -401,87 +422,4 @@ impl<'a> Simplices<'a> {
             .max_by_key(|&(v, n)| (n, std::cmp::Reverse(v)));
         best.expect("a simplex has vertices").0
     }
-}
-
-/// The range that the part of a triangle in a cell has along a direction; a quarter of it, so that sums do not overflow. The
-/// part is computed by clipping (Sutherland & Hodgman 1974) in doubles, and everything that rounding might cut off is
-/// added, so that the range is not too small.
-fn range_in_cell(corners: [Point; 3], cell: &Bounds, direction: Point) -> (f64, f64) {
-    const MARGIN: f64 = 64.0 * f64::EPSILON;
-    let size = [0, 1, 2].map(|k| {
-        let bounds = cell.low[k].abs().max(cell.high[k].abs());
-        corners.iter().fold(bounds, |m, p| m.max(p[k].abs()))
-    });
-    let mut shape = corners.to_vec();
-    for (k, bound, sign) in (0..3).flat_map(|k| [(k, cell.low[k], 1.0), (k, cell.high[k], -1.0)]) {
-        let inside = |p: &Point| sign * p[k] >= sign * bound;
-        let mut clipped = Vec::with_capacity(shape.len() + 1);
-        for (i, p) in shape.iter().enumerate() {
-            let q = &shape[(i + 1) % shape.len()];
-            if inside(p) {
-                clipped.push(*p);
-            }
-            if inside(p) != inside(q) {
-                let (within, beyond) = if inside(p) { (p, q) } else { (q, p) };
-                let length = (beyond[k] - within[k]).abs();
-                let exact = (bound - within[k]).abs() / length;
-                let t = (exact + MARGIN * size[k] / length).min(1.0);
-                clipped.push([0, 1, 2].map(|j| within[j] * (1.0 - t) + beyond[j] * t));
-            }
-        }
-        // Only by rounding: it does reach the cell.
-        if clipped.is_empty() {
-            shape = corners.to_vec();
-            break;
-        }
-        shape = clipped;
-    }
-    let terms = |p: &Point| [0, 1, 2].map(|k| 0.25 * direction[k] * p[k]);
-    let sizes = terms(&size).iter().map(|x| x.abs()).sum::<f64>();
-    let wrong = 4.0 * MARGIN * sizes + f64::MIN_POSITIVE;
-    let at = shape.iter().map(|p| terms(p).iter().sum::<f64>());
-    let low = at.clone().fold(f64::INFINITY, f64::min);
-    let high = at.fold(f64::NEG_INFINITY, f64::max);
-    (low - wrong, high + wrong)
-}
-
-/// Whether one of the axes across an edge of the triangle and an edge of the box, or the normal of the triangle, certainly
-/// separates them. Infinite and undefined values separate nothing.
-fn separated(triangle: [Point; 3], cell: &Bounds) -> bool {
-    let half = |x: f64, y: f64, sign: f64| 0.5 * x + sign * 0.5 * y;
-    let centre = [0, 1, 2].map(|k| half(cell.high[k], cell.low[k], 1.0));
-    let extent = [0, 1, 2].map(|k| half(cell.high[k], cell.low[k], -1.0));
-    let at = triangle.map(|p| [0, 1, 2].map(|k| p[k] - centre[k]));
-    // What the coordinates are rounded by is at most this times the unit roundoff.
-    let size = [0, 1, 2].map(|k| {
-        let largest = triangle
-            .iter()
-            .fold(centre[k].abs(), |m, p| m.max(p[k].abs()));
-        largest + extent[k]
-    });
-    /// Far above what the few operations below add up to.
-    const MARGIN: f64 = 64.0 * f64::EPSILON;
-    let apart = |axis: Point, slack: f64| {
-        let along = |p: &Point| axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
-        let [x, y, z] = [along(&at[0]), along(&at[1]), along(&at[2])];
-        let reach: f64 =
-            (0..3).map(|k| axis[k].abs() * extent[k]).sum::<f64>() + slack + f64::MIN_POSITIVE;
-        x.min(y).min(z) > reach || x.max(y).max(z) < -reach
-    };
-    let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| [0, 1, 2].map(|k| at[j][k] - at[i][k]));
-    for side in &sides {
-        for k in 0..3 {
-            let (l, m) = ((k + 1) % 3, (k + 2) % 3);
-            let mut axis = [0.0; 3];
-            axis[l] = -side[m];
-            axis[m] = side[l];
-            // Both factors of each product are rounded relative to `size`, and bounded by twice it.
-            if apart(axis, MARGIN * 4.0 * size[l] * size[m]) {
-                return true;
-            }
-        }
-    }
-    let [[ax, ay, az], [bx, by, bz], _] = sides;
-    let normal = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
-    apart(normal, MARGIN * 24.0 * size[0] * size[1] * size[2])
 }

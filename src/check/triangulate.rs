@@ -5,12 +5,12 @@
 //! sweep line, where the polygon is, a *chain* of vertices separates what has been triangulated, on its left, from what
 //! has not.
 //!
-//! Invariant: a chain runs from the left end of the edge below to that of the edge above, and no vertex of it could be cut
-//! off: it bulges towards the sweep line. So its last vertex in the order sees the sweep line, and what else a new
+//! Invariant: a chain runs from the left end of the edge below to that of the edge above, and no vertex of it could be
+//! cut off: it bulges towards the sweep line. So its last vertex in the order sees the sweep line, and what else a new
 //! vertex sees of it is beside that.
 //!
-//! The triangulation depends on the vertices, the edges and the projection, not on the order of corners or their sense. All
-//! signs are exact. O(k log k) for k vertices, and O(k) more for every vertex without an edge to its left.
+//! The triangulation depends on the vertices, the edges and the projection, not on the order of corners or their sense.
+//! All signs are exact. O(k log k) for k vertices, and O(k) more for every vertex without an edge to its left.
 
 use crate::mesh::VertexId;
 use crate::number::Sign;
@@ -31,7 +31,7 @@ struct Edge {
 }
 
 /// Triangles that cover the polygon, counterclockwise in the projection, whose corners are all vertices of the polygon.
-pub(super) fn triangulate(plane: &Projected, polygon: &Polygon) -> Vec<Triangle> {
+pub(crate) fn triangulate(plane: &Projected, polygon: &Polygon) -> Vec<Triangle> {
     let mut events = polygon.vertices.clone();
     events.sort_by(|&p, &q| order(plane, p, q));
     let starting = edges_by_left_end(plane, polygon);
@@ -203,8 +203,8 @@ mod tests {
     use crate::exchange::{Facet, Plc};
     use crate::plc::{Complex, Projection};
 
-    /// Twice the area and the number of the triangles of one facet, in the plane z = 0 and in either sense; all of them are
-    /// counterclockwise.
+    /// Twice the area and the number of the triangles of one facet, in the plane z = 0 and in either sense; all of them
+    /// are counterclockwise.
     fn area_and_count(
         points: &[[f64; 2]],
         polygons: &[&[u32]],

@@ -7,7 +7,7 @@ use tetflip::check::{Conflict, Findings, Part, check};
 use tetflip::exchange::Plc;
 use tetflip::format::write_conflicts;
 use tetflip::mesh::VertexId;
-use tetflip::plc::{EdgeName, VertexName};
+use tetflip::plc::{EdgeName, FacetName, VertexName};
 
 #[derive(clap::Args)]
 pub(crate) struct CheckArguments {
@@ -59,8 +59,15 @@ pub(crate) fn check_file(arguments: &CheckArguments) -> Result<(), Stop> {
 
 /// The findings for people.
 fn lines(plc: &Plc, findings: &Findings) -> Vec<String> {
-    let mut lines: Vec<String> = findings.errors.iter().map(ToString::to_string).collect();
-    lines.extend(findings.conflicts.iter().map(|c| c.describe(plc)));
+    let what = |repairable: bool| match repairable {
+        true => " (mesh repairs this; refused with --strict)",
+        false => "",
+    };
+    let errors = findings.errors.iter();
+    let errors = errors.map(|e| format!("{e}{}", what(e.is_repairable())));
+    let conflicts = findings.conflicts.iter();
+    let conflicts = conflicts.map(|c| c.describe(plc) + what(c.repairable));
+    let mut lines: Vec<String> = errors.chain(conflicts).collect();
     let [errors, pairs] = [findings.errors.len(), findings.conflicts.len()];
     let facets = plc.facets.len();
     let more = if findings.stopped {
@@ -132,9 +139,9 @@ fn as_json(plc: &Plc, findings: &Findings) -> Value {
     let edge = |ends: [VertexId; 2]| ends.map(vertex);
     let part = |part: Part| match part {
         Part::Facet(index) => {
-            let number = index as u64 + u64::from(plc.first_index);
+            let number = FacetName::new(plc, index).number;
             let polygons = plc.facets[index].polygons.iter();
-            let polygons: Vec<Vec<u64>> = polygons
+            let polygons: Vec<Vec<i64>> = polygons
                 .map(|p| p.iter().map(|&v| vertex(v)).collect())
                 .collect();
             json!({"facet": number, "polygons": polygons})
@@ -149,6 +156,7 @@ fn as_json(plc: &Plc, findings: &Findings) -> Value {
             "vertex": c.kind.vertex().map(vertex),
             "edges": c.kind.edges().into_iter().map(edge).collect::<Vec<_>>(),
             "point": c.point,
+            "repairable": c.repairable,
             "message": c.describe(plc),
         })
     };
@@ -156,6 +164,7 @@ fn as_json(plc: &Plc, findings: &Findings) -> Value {
     let branching = notes.branching_edges.iter();
     json!({
         "valid": findings.is_valid(),
+        "repairable": findings.is_repairable(),
         "stopped": findings.stopped,
         "errors": findings.errors.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "conflicts": findings.conflicts.iter().map(conflict).collect::<Vec<_>>(),

@@ -32,6 +32,16 @@ pub enum NoteCode {
     SkippedFiles,
     /// Rows that several tables of a survey have, all the same (`repeated-rows`).
     RepeatedRows,
+    /// A vertex lies exactly on an edge that does not have it; the edge is divided there (`vertex-on-edge`).
+    VertexOnEdge,
+    /// A vertex lies exactly on a facet that does not have it; the facet gets it (`vertex-on-facet`).
+    VertexOnFacet,
+    /// An edge lies exactly inside a facet that does not have it; the facet gets it as a segment (`edge-in-facet`).
+    EdgeInFacet,
+    /// Coplanar facets overlap; they are divided along each other (`facets-overlap`).
+    FacetsOverlap,
+    /// A polygon has the same corner several times in a row; one of them is left (`repeated-corner`).
+    RepeatedCorner,
 }
 
 impl NoteCode {
@@ -50,6 +60,11 @@ impl NoteCode {
             NoteCode::AnyTriangulation => "any-triangulation",
             NoteCode::SkippedFiles => "skipped-files",
             NoteCode::RepeatedRows => "repeated-rows",
+            NoteCode::VertexOnEdge => "vertex-on-edge",
+            NoteCode::VertexOnFacet => "vertex-on-facet",
+            NoteCode::EdgeInFacet => "edge-in-facet",
+            NoteCode::FacetsOverlap => "facets-overlap",
+            NoteCode::RepeatedCorner => "repeated-corner",
         }
     }
 }

@@ -18,6 +18,9 @@ pub struct Plc {
     pub vertex_markers: Vec<i64>,
     /// The facets.
     pub facets: Vec<Facet>,
+    /// The facets of the input that each facet comes from, if this PLC is a repaired one ([`crate::repair`]); empty for
+    /// the input itself.
+    pub origins: Vec<Vec<usize>>,
     /// Segments that belong to no facet (`.edge` files, two-vertex facets).
     pub segments: Vec<Segment>,
     /// A point in every part of the domain that is to be removed.

@@ -1,10 +1,11 @@
-//! From the input to a checked [`Complex`] (paper §2): duplicate vertices merged, every facet a polygon with known sides,
-//! coplanar neighbours merged, every segment once.
+//! From the input to a checked [`Complex`] (paper §2): duplicate vertices merged, every facet a polygon with known
+//! sides, coplanar neighbours merged, every segment once.
 //!
 //! O(n log n) for n triangles and for simple polygons with short edges; see [`super::crossing`] and
 //! [`super::subdivision`] for what facets of many edges cost.
 
 use super::facet::{FacetInput, undirected};
+use super::merge::Overlapping;
 use super::{Complex, EdgeName, FacetName, PlcError, Polygon, VertexName, merge};
 use crate::exchange::{Plc, Segment};
 use crate::mesh::VertexId;
@@ -13,8 +14,8 @@ use std::collections::hash_map::Entry;
 
 impl Complex {
     /// Checks a PLC. With `merge_coplanar`, facets that meet in an edge of theirs alone, have the same marker and lie
-    /// exactly on one plane become one polygon, and the edges between them are no longer segments, unless they were given
-    /// as segments or two-vertex polygons.
+    /// exactly on one plane become one polygon, and the edges between them are no longer segments, unless they were
+    /// given as segments or two-vertex polygons.
     ///
     /// An edge of a facet that bounds no part of its area (it dangles outside, or lies in a hole) is a segment but no
     /// edge of the polygon. Intersections between different facets and segments are not looked for, except facets that
@@ -50,7 +51,7 @@ impl Complex {
         check_different(plc, &polygons)?;
         let mut segments = segments.list;
         if merge_coplanar {
-            let merged = merge::merge(plc, polygons, &explicit)?;
+            let merged = merge::merge(plc, polygons, &explicit, Overlapping::Refused)?;
             polygons = merged.polygons;
             if !merged.dropped.is_empty() {
                 check_different(plc, &polygons)?;
@@ -64,6 +65,27 @@ impl Complex {
             polygons,
         })
     }
+}
+
+/// The polygons of the facets that have an area, those merged that [`Complex::new`] would merge, but for polygons that
+/// overlap beside a common edge.
+pub(crate) fn merged_polygons(
+    plc: &Plc,
+    representative: &[VertexId],
+) -> Result<Vec<Polygon>, PlcError> {
+    let given = given_segments(plc, representative)?;
+    let mut explicit: FxHashSet<_> = given.iter().map(|s| undirected(s.ends)).collect();
+    let mut polygons = Vec::with_capacity(plc.facets.len());
+    for index in 0..plc.facets.len() {
+        let facet = FacetInput::new(plc, index, representative)?;
+        explicit.extend(floating_edges(&facet));
+        if facet.is_area() {
+            let polygon = facet.polygon()?;
+            explicit.extend(loose_edges(&facet, &polygon));
+            polygons.push(polygon);
+        }
+    }
+    Ok(merge::merge(plc, polygons, &explicit, Overlapping::LeftApart)?.polygons)
 }
 
 fn check_points(plc: &Plc) -> Result<(), PlcError> {
@@ -130,7 +152,7 @@ fn floating_edges(facet: &FacetInput) -> Vec<[VertexId; 2]> {
 }
 
 /// The edges of a facet that are no edges of its polygon.
-fn loose_edges(facet: &FacetInput, polygon: &Polygon) -> Vec<[VertexId; 2]> {
+pub(crate) fn loose_edges(facet: &FacetInput, polygon: &Polygon) -> Vec<[VertexId; 2]> {
     let is_edge = |[a, b]: [VertexId; 2]| {
         [[a, b], [b, a]]
             .iter()

@@ -11,8 +11,8 @@ pub struct Complex {
     pub representative: Vec<VertexId>,
     /// Every segment once, with its marker (the first non-zero one given), in order of first appearance.
     pub segments: Vec<crate::exchange::Segment>,
-    /// How many of the segments, the last ones, are no segments of the input but diagonals of polygons that are flat only
-    /// to rounding ([`Complex::triangulate_not_flat`]).
+    /// How many of the segments, the last ones, are no segments of the input but diagonals of polygons that are flat
+    /// only to rounding ([`Complex::triangulate_not_flat`]).
     pub diagonals: usize,
     /// The polygons to be inserted.
     pub polygons: Vec<Polygon>,

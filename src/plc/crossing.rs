@@ -67,6 +67,11 @@ pub(super) fn find(
     None
 }
 
+/// Whether there is any conflict among distinct edges.
+pub(crate) fn has_conflict(plane: &Projected, edges: &[[VertexId; 2]]) -> bool {
+    find(plane, edges, &[]).is_some()
+}
+
 fn between(e: &Item, f: &Item) -> Option<Conflict> {
     let ([a, b], [c, d]) = (e.ends, f.ends);
     match (e.is_vertex(), f.is_vertex()) {

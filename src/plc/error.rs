@@ -9,16 +9,18 @@ use std::fmt;
 pub struct VertexName {
     /// The id, from 0.
     pub id: VertexId,
-    /// The number in the file: the id plus [`Plc::first_index`].
-    pub number: u64,
+    /// The number in the file, from [`Plc::numbers`] or counted from [`Plc::first_index`].
+    pub number: i64,
 }
 
 impl VertexName {
     /// The name of a vertex of `plc`.
     pub fn new(plc: &Plc, id: VertexId) -> VertexName {
+        let counted = || i64::from(id.0) + i64::from(plc.first_index);
+        let number = plc.numbers.get(id.index()).copied();
         VertexName {
             id,
-            number: u64::from(id.0) + u64::from(plc.first_index),
+            number: number.unwrap_or_else(counted),
         }
     }
 }
@@ -50,10 +52,11 @@ impl fmt::Display for EdgeName {
 /// A facet in a message: its index, and, since files do not number their facets, the corners of its first polygon.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FacetName {
-    /// The index in [`Plc::facets`], from 0.
+    /// The index in the facets of the input, from 0; of a repaired facet, that of the first facet it comes from
+    /// ([`Plc::origins`]).
     pub index: usize,
-    /// The index counted as the file counts its vertices.
-    pub number: u64,
+    /// The index, counted from 1 unless the file counts its vertices from 0.
+    pub number: i64,
     /// The corners of the first polygon.
     pub corners: Vec<VertexName>,
 }
@@ -62,9 +65,11 @@ impl FacetName {
     /// The name of a facet of `plc`.
     pub fn new(plc: &Plc, index: usize) -> FacetName {
         let corners = plc.facets[index].polygons.first();
+        let origin = plc.origins.get(index).and_then(|of| of.first());
+        let index = origin.copied().unwrap_or(index);
         FacetName {
             index,
-            number: index as u64 + u64::from(plc.first_index),
+            number: index as i64 + i64::from(plc.first_index.min(1)),
             corners: corners
                 .into_iter()
                 .flatten()
@@ -226,6 +231,21 @@ pub enum PlcError {
 }
 
 impl PlcError {
+    /// Whether [`crate::repair`] mends this: what has no area or no length is dropped, a repeated corner is left out,
+    /// and an edge is divided at the vertex that lies on it.
+    pub fn is_repairable(&self) -> bool {
+        matches!(
+            self,
+            PlcError::RepeatedVertex { .. }
+                | PlcError::TooFewVertices { .. }
+                | PlcError::ZeroArea { .. }
+                | PlcError::VertexOnEdge { .. }
+                | PlcError::DegenerateSegment { .. }
+                | PlcError::SameFacet { .. }
+                | PlcError::FacetsOverlap { .. }
+        )
+    }
+
     /// The facets in question, by their indices.
     pub fn facets(&self) -> Vec<usize> {
         match self {

@@ -275,7 +275,8 @@ impl<'a> FacetInput<'a> {
     }
 }
 
-/// Whether the corners of a polygon, which become `polygon` after duplicate vertices have been merged, are distinct enough.
+/// Whether the corners of a polygon, which become `polygon` after duplicate vertices have been merged, are distinct
+/// enough.
 fn check_corners(
     plc: &Plc,
     index: usize,

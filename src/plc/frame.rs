@@ -26,7 +26,7 @@ pub(super) enum Flatness {
 
 /// Three non-collinear vertices that span a large triangle: a and b far from each other, c far from the line ab.
 /// `None` if all vertices are collinear. The result does not depend on anything but the order of `vertices`.
-pub(super) fn choose(points: &[[f64; 3]], vertices: &[VertexId]) -> Option<[VertexId; 3]> {
+pub(crate) fn choose(points: &[[f64; 3]], vertices: &[VertexId]) -> Option<[VertexId; 3]> {
     let &start = vertices.first()?;
     let unit = Unit::of(points, vertices);
     let scaled = vertices.iter().map(|v| unit.point(points[v.index()]));

@@ -1,13 +1,15 @@
 //! Adjacent coplanar facets become one polygon, so that nobody has to recover edges that are there only because a file
 //! format knows nothing but triangles.
 //!
-//! Two facets are joined across an edge if it is an edge of these two alone, once in each, was not given explicitly, both
-//! facets have the same marker, and all their vertices lie exactly on one plane. (Nearly flat facets are never joined.)
-//! Two such facets on the same side of their edge overlap, whatever their markers: an error. Joining is transitive (union-find), and
-//! because every join is on one exact plane, so is the whole group. Edges dropped are those across which two facets were
-//! joined, and no others: an explicit segment inside the merged polygon stays in both directions.
+//! Two facets are joined across an edge if it is an edge of these two alone, once in each, was not given explicitly,
+//! both facets have the same marker, and all their vertices lie exactly on one plane. (Nearly flat facets are never
+//! joined.) Two such facets on the same side of their edge overlap, whatever their markers: an error. Joining is
+//! transitive (union-find), and because every join is on one exact plane, so is the whole group. Edges dropped are
+//! those across which two facets were joined, and no others: an explicit segment inside the merged polygon stays in
+//! both directions.
 //!
-//! O(n + k) for k edges of polygons on n vertices with few edges each, one orientation test for each edge between triangles.
+//! O(n + k) for k edges of polygons on n vertices with few edges each, one orientation test for each edge between
+//! triangles.
 
 use super::facet::{sorted, undirected};
 use super::frame;
@@ -34,11 +36,21 @@ pub(super) struct Merged {
     pub dropped: FxHashSet<[VertexId; 2]>,
 }
 
+/// What becomes of polygons that overlap beside a common edge.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Overlapping {
+    /// That is an error.
+    Refused,
+    /// They are not merged with each other.
+    LeftApart,
+}
+
 /// Merges what can be merged. `explicit` holds the edges that must stay, with increasing ends.
 pub(super) fn merge(
     plc: &Plc,
     polygons: Vec<Polygon>,
     explicit: &FxHashSet<[VertexId; 2]>,
+    overlapping: Overlapping,
 ) -> Result<Merged, PlcError> {
     let mut groups = UnionFind::new(polygons.len());
     let mut dropped = FxHashSet::default();
@@ -53,6 +65,9 @@ pub(super) fn merge(
             }
             let flipped = is_flipped(plc, f, g);
             if (s.ascends == t.ascends) != flipped {
+                if overlapping == Overlapping::LeftApart {
+                    continue;
+                }
                 return Err(overlap(plc, f, g, edge));
             }
             if f.marker != g.marker || explicit.contains(&edge) {
@@ -77,16 +92,24 @@ pub(super) fn merge(
     for i in 0..polygons.len() {
         let group = members.of(VertexId::new(i));
         if group.len() > 1 {
-            joined.push(join(plc, &polygons, group, &mut groups, &dropped)?);
+            match join(plc, &polygons, group, &mut groups, &dropped) {
+                Err(error) if overlapping == Overlapping::Refused => return Err(error),
+                result => joined.push(result.ok()),
+            }
         }
     }
     let mut joined = joined.into_iter();
     let mut merged = Vec::new();
+    let mut apart = vec![false; roots.len()];
     for (i, polygon) in polygons.into_iter().enumerate() {
-        match members.of(VertexId::new(i)) {
-            [] => {}
-            [_] => merged.push(polygon),
-            _ => merged.extend(joined.next()),
+        if members.of(VertexId::new(i)).len() > 1 {
+            match joined.next().flatten() {
+                Some(joined) => merged.push(joined),
+                None => apart[i] = true,
+            }
+        }
+        if apart[roots[i]] || members.of(VertexId::new(roots[i])).len() == 1 {
+            merged.push(polygon);
         }
     }
     Ok(Merged {

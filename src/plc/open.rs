@@ -6,9 +6,9 @@ use crate::mesh::VertexId;
 impl Complex {
     /// The open edges, those that exactly one polygon has, on one side only, divided into connected boundaries.
     ///
-    /// An edge that floats in a polygon has that polygon on both sides, so that a wall whose foot is an edge of the floor
-    /// is not open there. Each boundary is sorted, and the boundaries are in the order of their first edges. An open
-    /// surface has at least one; a closed one may have a fin or a floating sheet, and then has some, too.
+    /// An edge that floats in a polygon has that polygon on both sides, so that a wall whose foot is an edge of the
+    /// floor is not open there. Each boundary is sorted, and the boundaries are in the order of their first edges. An
+    /// open surface has at least one; a closed one may have a fin or a floating sheet, and then has some, too.
     ///
     /// O(n log n) for n edges of polygons.
     pub fn open_boundaries(&self) -> Vec<Vec<[VertexId; 2]>> {

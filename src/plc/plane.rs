@@ -1,5 +1,5 @@
-//! Exact signs in the plane of a facet: a coordinate axis is dropped along which the plane does not stand upright, so that
-//! the projected coordinates are input doubles and no rounding happens at all.
+//! Exact signs in the plane of a facet: a coordinate axis is dropped along which the plane does not stand upright, so
+//! that the projected coordinates are input doubles and no rounding happens at all.
 
 use crate::mesh::VertexId;
 use crate::number::{Number, Polynomial, Sign, decide};
@@ -85,9 +85,9 @@ impl Polynomial for Area<'_> {
     }
 }
 
-/// In which direction a closed walk turns, if it is the boundary of a convex polygon with these corners and no others: it turns
-/// in the same direction everywhere, and goes round once, so that its direction changes from ascending to descending, by
-/// first and then by second coordinates, only once.
+/// In which direction a closed walk turns, if it is the boundary of a convex polygon with these corners and no others:
+/// it turns in the same direction everywhere, and goes round once, so that its direction changes from ascending to
+/// descending, by first and then by second coordinates, only once.
 pub(crate) fn convex_turn(walk: &[Point]) -> Option<Sign> {
     let n = walk.len();
     let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };

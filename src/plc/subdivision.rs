@@ -70,29 +70,32 @@ pub(super) fn area(
 }
 
 /// The half-edges of a plane graph and their walks. Half-edge 2i is edge i, 2i + 1 its reverse.
-struct Subdivision {
+pub(super) struct Subdivision {
     ends: Vec<[VertexId; 2]>,
     /// The walk of each half-edge.
     walk_of: Vec<usize>,
+    /// The half-edges after each one along its walk.
+    next: Vec<usize>,
     /// The points of each walk in order.
     walks: Vec<Vec<Point>>,
     /// The connected component of each walk.
     component: Vec<usize>,
     /// Whether the walk bounds a face from outside; otherwise it is the outer boundary of its component.
-    bounded: Vec<bool>,
+    pub(super) bounded: Vec<bool>,
     /// How many faces of other components lie around each component.
     depth: Vec<usize>,
     /// The face to the left of each walk, named by the walk that bounds it from outside; `None` for the unbounded face.
-    face: Vec<Option<usize>>,
+    pub(super) face: Vec<Option<usize>>,
 }
 
 impl Subdivision {
-    fn new(plane: &Projected, edges: &[[VertexId; 2]]) -> Subdivision {
+    pub(super) fn new(plane: &Projected, edges: &[[VertexId; 2]]) -> Subdivision {
         let ends: Vec<_> = edges.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
         let next = successors(plane, &ends);
         let mut graph = Subdivision {
             walk_of: vec![usize::MAX; ends.len()],
             ends,
+            next,
             walks: Vec::new(),
             component: Vec::new(),
             bounded: Vec::new(),
@@ -101,7 +104,7 @@ impl Subdivision {
         };
         for start in 0..graph.ends.len() {
             if graph.walk_of[start] == usize::MAX {
-                graph.trace(plane, &next, start);
+                graph.trace(plane, start);
             }
         }
         let areas = graph.walks.iter().map(|w| area_sign(w));
@@ -112,18 +115,36 @@ impl Subdivision {
     }
 
     /// Follows the walk of a half-edge.
-    fn trace(&mut self, plane: &Projected, next: &[usize], start: usize) {
+    fn trace(&mut self, plane: &Projected, start: usize) {
         let mut walk = Vec::new();
         let mut h = start;
         loop {
             self.walk_of[h] = self.walks.len();
             walk.push(plane.at(self.ends[h][0]));
-            h = next[h];
+            h = self.next[h];
             if h == start {
                 break;
             }
         }
         self.walks.push(walk);
+    }
+
+    /// The vertices of each walk in order, each with an edge to the next one.
+    pub(super) fn corners(&self) -> Vec<Vec<VertexId>> {
+        let mut first = vec![usize::MAX; self.walks.len()];
+        for (h, &walk) in self.walk_of.iter().enumerate().rev() {
+            first[walk] = h;
+        }
+        let trace = |start: usize| {
+            let mut corners = vec![self.ends[start][0]];
+            let mut h = self.next[start];
+            while h != start {
+                corners.push(self.ends[h][0]);
+                h = self.next[h];
+            }
+            corners
+        };
+        first.into_iter().map(trace).collect()
     }
 
     /// Walks on both sides of an edge are in one component.
@@ -184,15 +205,15 @@ impl Subdivision {
     }
 
     /// The bounded face that contains a point which is on no edge.
-    fn face_at(&self, at: Point) -> Option<usize> {
+    pub(super) fn face_at(&self, at: Point) -> Option<usize> {
         let around =
             (0..self.walks.len()).filter(|&w| self.bounded[w] && winds_about(&self.walks[w], at));
         self.innermost(around)
     }
 }
 
-/// The half-edge that follows each one on the boundary of the face to its left: clockwise next about its head to its own
-/// reverse.
+/// The half-edge that follows each one on the boundary of the face to its left: clockwise next about its head to its
+/// own reverse.
 fn successors(plane: &Projected, ends: &[[VertexId; 2]]) -> Vec<usize> {
     let mut outgoing: Vec<usize> = (0..ends.len()).collect();
     outgoing.sort_unstable_by(|&g, &h| {
@@ -211,7 +232,7 @@ fn successors(plane: &Projected, ends: &[[VertexId; 2]]) -> Vec<usize> {
 }
 
 /// Orders the directions from o to p and to q counterclockwise, from the positive first axis on.
-fn by_angle(o: Point, p: Point, q: Point) -> Ordering {
+pub(crate) fn by_angle(o: Point, p: Point, q: Point) -> Ordering {
     // Differences of doubles have the sign of the comparison; 0 for angles in [0, π), 1 for [π, 2π).
     let half = |p: Point| i32::from(p[1] < o[1] || p[1] == o[1] && p[0] < o[0]);
     half(p).cmp(&half(q)).then_with(|| match orient2d(o, p, q) {
@@ -413,13 +434,15 @@ mod tests {
             expected.sort_unstable();
 
             let points: Vec<_> = (0..(N + 1) * (N + 1)).map(|v| [(v % (N + 1)) as f64, (v / (N + 1)) as f64]).collect();
-            let inside = |t: &usize| [0, 1].map(|k| triangles[*t].map(|v| points[v.index()][k]).iter().sum::<f64>() / 3.0);
+            let sum = |t: usize, k: usize| triangles[t].map(|v| points[v.index()][k]).iter().sum::<f64>();
+            let inside = |t: &usize| [0, 1].map(|k| sum(*t, k) / 3.0);
             let hole_points: Vec<_> = holes.iter().map(inside).collect();
             let space: Vec<_> = points.iter().map(|&[u, v]| [u, v, 0.0]).collect();
             let corner = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
             let projection = Projection::of(corner).unwrap().0;
             let plane = Projected { points: &space, projection };
-            let floating: Vec<_> = (0..points.len()).map(VertexId::new).filter(|v| !edges.concat().contains(v)).collect();
+            let floating = (0..points.len()).map(VertexId::new).filter(|v| !edges.concat().contains(v));
+            let floating: Vec<_> = floating.collect();
             let found = area(&plane, &edges, &floating, &hole_points).unwrap();
             prop_assert_eq!(found.edges, expected);
             // All triangles about a floating vertex are in one face.

@@ -1,11 +1,11 @@
-//! Polygons that are flat only to rounding, as triangles, which are flat: for exact Steiner points, with which everything
-//! else is flat, too.
+//! Polygons that are flat only to rounding, as triangles, which are flat: for exact Steiner points, with which
+//! everything else is flat, too.
 //!
 //! The triangulation is the constrained Delaunay triangulation of the polygon in the projection of its frame, whose
 //! coordinates are input doubles ([`super::plane`]), so that it is that of the polygon as its checks saw it. The crate
-//! `spade` makes it, with exact predicates. Its coordinates must be neither too small nor too large: they are multiplied
-//! by a power of two, and what then is too small counts as 0. Whether all triangles are positive, and so whether that
-//! has changed anything, is checked with our own signs.
+//! `spade` makes it, with exact predicates. Its coordinates must be neither too small nor too large: they are
+//! multiplied by a power of two, and what then is too small counts as 0. Whether all triangles are positive, and so
+//! whether that has changed anything, is checked with our own signs.
 
 use super::facet::undirected;
 use super::plane::{Projected, Projection};

@@ -21,6 +21,7 @@ mod not_flat;
 mod number_agreement;
 #[cfg(feature = "cli")]
 mod program;
+mod repair;
 mod rounded_flips;
 mod segments;
 mod surface_formats;
