@@ -1,12 +1,11 @@
 //! Meshes a cube and verifies the mesh.
 
-use tetflip::cdt::{Options, tetrahedralize};
+use tetflip::cdt::{MeshError, MeshOptions, Meshed};
 use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
-use tetflip::report::Report;
 use tetflip::verify::{VerifyOptions, verify};
 
-fn main() -> Result<(), tetflip::error::Failure> {
+fn main() -> Result<(), MeshError> {
     // The corners of the unit cube, numbered by the bits x, y, z, and its six faces.
     let vertices = (0..8u8)
         .map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from))
@@ -32,14 +31,9 @@ fn main() -> Result<(), tetflip::error::Failure> {
     };
 
     // By default: polygons are inserted by flips in exact order, and the inside is kept.
-    let mut report = Report::default();
-    let mesh = tetrahedralize(
-        &plc,
-        &Options::default(),
-        &mut report,
-        &mut |_polygons_done| {},
-    )?;
+    let Meshed { mesh, report } = tetflip::mesh(&plc, &MeshOptions::default())?;
     assert_eq!(report.steiner_points, 0);
+    assert!(report.notes.is_empty());
     assert_eq!(mesh.vertices, plc.vertices);
     assert_eq!(mesh.faces.len(), 12);
 

@@ -14,12 +14,13 @@
 //!                          └──▶ verify: Plc + ExportedMesh ──▶ Verdict (exact, by its own means)
 //! ```
 //!
-//! [`cdt`] is that picture as code, one call per phase. At the bottom are `number`, which knows no mesh, and `mesh`
+//! [`mesh`](fn@mesh) is all of it in one call; [`cdt`] is that picture as code, one call per phase. At the bottom are
+//! `number`, which knows no mesh, and `mesh`
 //! (topology alone), which knows no number. `predicate` has the signs of points, which it names by the ids of the mesh;
 //! `delaunay` and `recover` build on all three.
 //!
 //! Every sign that decides anything is exact, for all finite doubles. The library neither panics on user input nor
-//! prints: bad input and an algorithm that gave up are values ([`error::Failure`]), counts and seconds are a struct
+//! prints: bad input and an algorithm that gave up are values ([`error::Failure`]); counts, seconds and notes are a struct
 //! ([`report::Report`]).
 //!
 //! Work on many vertices, tetrahedra or lines is shared by all threads of the current [`rayon`] pool. The results do
@@ -54,3 +55,5 @@ pub mod report;
 mod threads;
 pub mod update;
 pub mod verify;
+
+pub use cdt::mesh;

@@ -15,14 +15,15 @@ use std::process::ExitCode;
 
 /// Constrained Delaunay tetrahedralizations, by cavity retriangulation or by exactly ordered bistellar flips.
 ///
-/// Exit status: 0 success; 1 the algorithm gave up or a verification failed; 2 bad input or usage.
+/// Exit status: 0 success; 1 the algorithm gave up or a verification failed; 2 bad input or usage. Notes, on what was
+/// forgiven, assumed, dropped or ignored, are lines on stderr, also with --quiet: note[code]: text.
 #[derive(Parser)]
 #[command(version, max_term_width = 110)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
-    /// How many threads to use for what several can do. What is computed does not depend on it. [default: all processors, or
-    /// what RAYON_NUM_THREADS says]
+    /// How many threads to use for what several can do. What is computed does not depend on it. [default: all
+    /// processors, or what RAYON_NUM_THREADS says]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 }

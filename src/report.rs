@@ -1,6 +1,7 @@
 //! What a run did: counts and seconds per phase, as plain documented structs. (The library reads a clock here and in
 //! [`crate::clock`], for the tasks of polygon insertion, and nowhere else.)
 
+use crate::exchange::Note;
 use crate::predicate::Steiner;
 use crate::recover::flatten::FlatteningCounts;
 use crate::recover::polygons::{Insertion, PolygonCounts};
@@ -77,8 +78,11 @@ pub struct Report {
     pub output_tets: usize,
     /// Subpolygons of the output (and hull faces, where the hull is kept).
     pub output_faces: usize,
-    /// Whether the convex hull is kept because the facets enclose nothing.
-    pub hull_instead: bool,
+    /// Regions of the output: parts of the domain that facets divide.
+    pub output_regions: usize,
+    /// Segments of the domain that are edges of one polygon only, on one side: those of fins, cracks and sheets that
+    /// float.
+    pub open_edges: usize,
     /// Exact Steiner points that output does not round to the nearest doubles, so that tetrahedra stay positive.
     pub moved_by_rounding: usize,
     /// Tetrahedra that are positive with the exact Steiner points but not with the rounded ones, by index in the
@@ -87,6 +91,8 @@ pub struct Report {
     /// How many signs the verifier had to decide by integers ([`crate::verify::Counts::exact_signs`]), if it was asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verified_by_integers: Option<usize>,
+    /// What was forgiven, assumed, dropped or ignored.
+    pub notes: Vec<Note>,
     /// Seconds per phase; a phase that was not reached has 0.
     pub seconds: Seconds,
 }

@@ -1,12 +1,16 @@
 //! The last phase: what of the tetrahedralization is written, as arrays.
 
-use super::Cdt;
-use crate::error::{Failure, GaveUp};
-use crate::exchange::Plc;
-use crate::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
-use crate::mesh::{SimplexIndex, TetId, VertexId, canonical_tet, sort_by_least};
+use super::inside::{Inside, Located, OpenEdge, open_in, volumes_not_applied};
+use super::interpolation::Interpolation;
+use super::{Cdt, open};
+use crate::error::{DomainError, Failure, PointKind};
+use crate::exchange::{
+    ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, FaceTable, Note, NoteCode, Plc,
+};
+use crate::mesh::{SimplexIndex, TetId, VertexId, canonical_face, canonical_tet, sort_by_least};
+use crate::plc::{FacetName, VertexName};
 use crate::predicate::{DoublePoints, PointStore};
-use crate::recover::domain::{keeps_edge, mark_domain};
+use crate::recover::domain::{Components, OnPolygon, keeps_edge, locate};
 use crate::recover::output::embedding::check_embedding;
 use crate::recover::output::rounding::round;
 use crate::recover::output::shims::Repair;
@@ -18,13 +22,17 @@ use std::borrow::Cow;
 /// Fewer tetrahedra are one thread's work.
 const FEW: usize = 1 << 15;
 
+/// The number of what is not in the mesh, among regions and polygons.
+const NONE: u32 = 0;
+
 impl Cdt<DoublePoints> {
-    /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are in
-    /// an order that depends on their vertices alone, so that equal meshes give equal files.
+    /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are
+    /// in an order that depends on their vertices alone, so that equal meshes give equal files. What the input says
+    /// in vain, points outside of everything for instance, is in the report's notes.
     ///
     /// # Errors
-    /// [`InvalidPlc`](crate::error::InvalidPlc) if polygons of the input overlap, or have something inside that they do not
-    /// declare; [`GaveUp::NothingInside`] if nothing would be left.
+    /// [`InvalidPlc`](crate::error::InvalidPlc) if polygons of the input overlap, or have something inside that they
+    /// do not declare; [`DomainError`] if what is inside is not known.
     pub fn export(
         &mut self,
         plc: &Plc,
@@ -41,13 +49,15 @@ impl Cdt<DoublePoints> {
             )?;
             let n = self.points.len();
             let walls = SimplexIndex::of_triangles(n, self.subpolygons.iter());
-            let marks = mark_domain(plc, &self.points, &self.mesh, &walls, keep_hull)?;
+            let components = Components::new(&self.mesh, &walls);
+            let open = self.open_edges(&components);
+            let inside = self.inside(plc, &walls, &components, &open, keep_hull, report)?;
             let mut repair = Repair {
                 points: &self.points,
                 mesh: Cow::Borrowed(&self.mesh),
                 incidence: Cow::Borrowed(&self.incidence),
                 subpolygons: Cow::Borrowed(&self.subpolygons),
-                marks,
+                marks: inside.marks(plc, &self.mesh, &components),
                 pieces: &self.pieces,
                 subsegments: &self.subsegments,
                 index: &self.index,
@@ -57,6 +67,10 @@ impl Cdt<DoublePoints> {
                 Cow::Borrowed(_) => walls,
                 Cow::Owned(moved) => SimplexIndex::of_triangles(n, moved.iter()),
             };
+            let components = match (&repair.mesh, &repair.subpolygons) {
+                (Cow::Borrowed(_), Cow::Borrowed(_)) => components,
+                _ => Components::new(&repair.mesh, &walls),
+            };
             let (mesh, marks) = (&*repair.mesh, &repair.marks);
             let mut tets = threads::collect(mesh.capacity(), FEW, |i, tets| {
                 let t = TetId::new(i);
@@ -64,18 +78,30 @@ impl Cdt<DoublePoints> {
                     tets.push((canonical_tet(mesh.vertices(t)), t));
                 }
             });
-            if tets.is_empty() {
-                return Err(GaveUp::NothingInside.into());
-            }
             sort_by_least(&mut tets, n, |tet| tet.0[0], |tet| tet.0);
+            let regions = Regions::new(&components, tets.iter().map(|&(_, t)| t));
             let vertices: Vec<[VertexId; 4]> = tets.iter().map(|&(v, _)| v).collect();
             let rounding = round(&self.points, &vertices);
             report.moved_by_rounding = rounding.moved;
             report.spoilt_by_rounding = rounding.spoilt;
-            let faces = self.faces(&repair, &walls);
+            report.notes.extend(spoilt(&report.spoilt_by_rounding, plc));
+            report.output_regions = regions.count as usize;
+            let (faces, table) = self.faces(&repair, &walls, &regions);
+            if !keep_hull {
+                report.notes.extend(self.facets_outside(plc, &table));
+            }
+            let interpolation = Interpolation {
+                plc,
+                points: &self.points,
+                complex: &self.complex,
+                subsegments: &self.subsegments,
+                pieces: &self.pieces,
+            };
             let mesh = ExportedMesh {
                 first_index: plc.first_index,
                 vertices: rounding.coordinates,
+                attributes: interpolation.attributes(),
+                vertex_markers: interpolation.markers(),
                 exact: self.exact_positions(),
                 regions: if marks.region.is_empty() {
                     Vec::new()
@@ -84,13 +110,81 @@ impl Cdt<DoublePoints> {
                 },
                 edges: self.edges(&repair, &faces),
                 faces,
+                face_table: table,
+                region_numbers: tets.iter().map(|&(_, t)| regions.of(t)).collect(),
                 tets: vertices,
-                ..ExportedMesh::default()
+                renumbered: Vec::new(),
             };
             report.output_tets = mesh.tets.len();
             report.output_faces = mesh.faces.len();
             Ok(mesh)
         })
+    }
+
+    /// The segments that one side of one polygon is on, with the components around them.
+    fn open_edges(&self, components: &Components) -> Vec<OpenEdge> {
+        let complex = &*self.complex;
+        let sides = open::sides(complex, &self.index, |f| self.is_inserted(f));
+        let open = (0..sides.len()).filter(|&s| sides[s] == 1);
+        let mut open: Vec<OpenEdge> = open
+            .map(|s| {
+                let mut chain = self.subsegments.chain(s as u32);
+                let [a, b] = [(); 2].map(|()| chain.next().expect("a segment has two ends"));
+                let t = self.incidence.tet_at_edge(&self.mesh, a, b);
+                let component = t.and_then(|t| components.of(t));
+                let component = component.expect("segments are edges of the mesh");
+                (open::ends_of(complex, s), component)
+            })
+            .collect();
+        open.sort_unstable();
+        open
+    }
+
+    /// What is inside.
+    fn inside(
+        &mut self,
+        plc: &Plc,
+        walls: &SimplexIndex<2>,
+        components: &Components,
+        open: &[OpenEdge],
+        keep_hull: bool,
+        report: &mut Report,
+    ) -> Result<Inside, DomainError> {
+        let notes = &mut report.notes;
+        notes.extend(volumes_not_applied(plc));
+        if !keep_hull {
+            let edges = open_in(open, Components::OUTSIDE);
+            if !edges.is_empty() {
+                return Err(DomainError::Open { edges });
+            }
+            if components.count() == 1 {
+                return Err(DomainError::NothingEnclosed);
+            }
+        }
+        let mut near = self.mesh.finite().next();
+        let mut find =
+            |kind, index, point| match locate(&self.points, &self.mesh, walls, &mut near, point) {
+                Ok(t) => Ok(t.and_then(|t| components.of(t))),
+                Err(OnPolygon) => Err(DomainError::PointOnFacet { kind, index }),
+            };
+        let holes: &[[f64; 3]] = if keep_hull { &[] } else { &plc.holes };
+        let holes = holes.iter().enumerate();
+        let holes = holes
+            .map(|(index, &hole)| find(PointKind::Hole, index, hole))
+            .collect::<Result<_, _>>()?;
+        let regions = plc.regions.iter().enumerate();
+        let regions = regions
+            .map(|(index, region)| find(PointKind::Region, index, region.point))
+            .collect::<Result<_, _>>()?;
+        let located = Located { holes, regions };
+        if keep_hull {
+            report.open_edges = open.len();
+            return Inside::hull(plc, components, &located, notes);
+        }
+        let inside = Inside::of_facets(plc, components, open, &located, notes)?;
+        let number = |v: VertexId| VertexName::new(plc, v).number;
+        report.open_edges = inside.count_open(open, &number, notes);
+        Ok(inside)
     }
 
     /// Where the points are whose coordinates are no doubles.
@@ -107,9 +201,19 @@ impl Cdt<DoublePoints> {
             .collect()
     }
 
-    /// The subpolygons of the domain with their markers, and the faces of its boundary.
-    fn faces(&self, written: &Repair<DoublePoints>, walls: &SimplexIndex<2>) -> Vec<ExportedFace> {
+    /// The subpolygons of the domain with their markers, and the faces of its boundary; and what they lie on.
+    ///
+    /// A face of the boundary is counterclockwise for one who looks at it from outside; one between two regions for
+    /// one who looks from the region with the higher number; one with the same region on both sides has its vertices
+    /// in ascending order.
+    fn faces(
+        &self,
+        written: &Repair<DoublePoints>,
+        walls: &SimplexIndex<2>,
+        regions: &Regions,
+    ) -> (Vec<ExportedFace>, FaceTable) {
         let (mesh, marks) = (&*written.mesh, &written.marks);
+        let polygon_of = self.polygon_of_piece();
         let mut faces = threads::collect(mesh.capacity(), FEW, |i, faces| {
             let t = TetId::new(i);
             if !marks.kept[i] || !mesh.is_alive(t) || mesh.is_ghost(t) {
@@ -123,18 +227,89 @@ impl Cdt<DoublePoints> {
                     continue;
                 }
                 let facet = mesh.facet(c);
-                let polygon = walls.triangle(facet);
-                if polygon.is_some() || boundary {
-                    let marker =
-                        polygon.map_or(0, |f| self.pieces.complex.polygons[f as usize].marker);
-                    let vertices = face(facet);
-                    faces.push(ExportedFace { vertices, marker });
+                let piece = walls.triangle(facet);
+                if piece.is_none() && !boundary {
+                    continue;
                 }
+                // The facet turns counterclockwise for one who looks from outside of t.
+                let here = regions.of(t);
+                let there = if boundary { NONE } else { regions.of(n) };
+                let (vertices, sides) = if boundary || here < there {
+                    (canonical_face(facet), [here, there])
+                } else if here > there {
+                    (
+                        canonical_face([facet[0], facet[2], facet[1]]),
+                        [there, here],
+                    )
+                } else {
+                    (face(facet), [here, there])
+                };
+                let polygon = piece.map_or(NONE, |p| polygon_of[p as usize] + 1);
+                faces.push((face(facet), vertices, sides, polygon));
             }
         });
         let n = self.points.len();
-        sort_by_least(&mut faces, n, |f| f.vertices[0], |f| f.vertices);
-        faces
+        sort_by_least(&mut faces, n, |f| f.0[0], |f| f.0);
+        let polygons = &self.complex.polygons;
+        let marker = |polygon: u32| {
+            polygon
+                .checked_sub(1)
+                .map_or(0, |f| polygons[f as usize].marker)
+        };
+        let exported = faces.iter().map(|&(_, vertices, _, polygon)| ExportedFace {
+            vertices,
+            marker: marker(polygon),
+        });
+        let exported = exported.collect();
+        let table = FaceTable {
+            sides: faces.iter().map(|f| f.2).collect(),
+            polygons: faces.iter().map(|f| f.3).collect(),
+            facets: polygons.iter().map(|f| f.facets.clone()).collect(),
+        };
+        (exported, table)
+    }
+
+    /// The polygon of each piece.
+    fn polygon_of_piece(&self) -> Vec<u32> {
+        let mut of = vec![NONE; self.pieces.complex.polygons.len()];
+        for f in 0..self.complex.polygons.len() {
+            of[self.pieces.of(f)].fill(f as u32);
+        }
+        of
+    }
+
+    /// A note about facets with an area that are on no face.
+    fn facets_outside(&self, plc: &Plc, table: &FaceTable) -> Option<Note> {
+        let mut written = vec![false; self.complex.polygons.len() + 1];
+        for &polygon in &table.polygons {
+            written[polygon as usize] = true;
+        }
+        let outside =
+            (0..self.complex.polygons.len()).filter(|&f| !written[f + 1] && self.is_inserted(f));
+        let mut facets: Vec<usize> = outside
+            .flat_map(|f| &self.complex.polygons[f].facets)
+            .copied()
+            .collect();
+        facets.sort_unstable();
+        let names: Vec<String> = facets
+            .iter()
+            .take(4)
+            .map(|&f| FacetName::new(plc, f).to_string())
+            .collect();
+        let text = match facets.len() {
+            0 => return None,
+            1 => format!("{} is outside of the domain and left out", names[0]),
+            2..=4 => format!(
+                "{} are outside of the domain and left out",
+                names.join(", ")
+            ),
+            count => format!(
+                "{count} facets are outside of the domain and left out: {}, …",
+                names.join(", ")
+            ),
+        };
+        let numbers = facets.iter().map(|&f| FacetName::new(plc, f).number);
+        Some(Note::new(NoteCode::FacetsOutside, facets.len(), text).on_facets(numbers))
     }
 
     /// The subsegments of the domain, whose faces are given, with their markers.
@@ -171,4 +346,56 @@ impl Cdt<DoublePoints> {
         sort_by_least(&mut edges, n, |e| e.vertices[0], |e| e.vertices);
         edges
     }
+}
+
+/// The numbers of the regions: the components of the domain, from 1, in the order of their first tetrahedra in the
+/// output.
+struct Regions<'a> {
+    components: &'a Components,
+    numbers: Vec<u32>,
+    count: u32,
+}
+
+impl Regions<'_> {
+    fn new<'a>(components: &'a Components, written: impl Iterator<Item = TetId>) -> Regions<'a> {
+        let mut numbers = vec![NONE; components.count()];
+        let mut count = 0;
+        for c in written.filter_map(|t| components.of(t)) {
+            let number = &mut numbers[c as usize];
+            if *number == NONE {
+                count += 1;
+                *number = count;
+            }
+        }
+        Regions {
+            components,
+            numbers,
+            count,
+        }
+    }
+
+    fn of(&self, t: TetId) -> u32 {
+        self.components
+            .of(t)
+            .map_or(NONE, |c| self.numbers[c as usize])
+    }
+}
+
+/// A note about tetrahedra that are positive only with exact Steiner points.
+fn spoilt(tets: &[usize], plc: &Plc) -> Option<Note> {
+    let names = tets.iter().take(Note::LISTED);
+    let names: Vec<String> = names
+        .map(|t| (t + plc.first_index as usize).to_string())
+        .collect();
+    let more = if tets.len() > Note::LISTED {
+        ", …"
+    } else {
+        ""
+    };
+    let text = format!(
+        "{} tetrahedra are positive, but not with Steiner points rounded to doubles: {}{more} (the report lists all)",
+        tets.len(),
+        names.join(", "),
+    );
+    (!tets.is_empty()).then(|| Note::new(NoteCode::SpoiltByRounding, tets.len(), text))
 }

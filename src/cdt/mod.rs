@@ -4,11 +4,18 @@
 //! Plc ─ Complex::new ─ delaunay ─ recover_segments ─ insert_polygons ─ mark_domain ─ ExportedMesh
 //! ```
 
+mod call;
+mod early_check;
 mod export;
+mod inside;
+mod interpolation;
+mod open;
+
+pub use call::{MeshError, MeshOptions, Meshed, SteinerChoice, mesh, mesh_with_progress};
 
 use crate::clock::TaskSeconds;
 use crate::delaunay::{delaunay, delaunay_by};
-use crate::error::{DeletionRefused, Failure, GaveUp};
+use crate::error::{DeletionRefused, Failure};
 use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
 use crate::mesh::{Incidence, TetMesh, VertexId};
@@ -19,9 +26,11 @@ use crate::recover::flips::{FlipObserver, FlipRegion};
 use crate::recover::polygons::{
     FlipOrder, Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons,
 };
-use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
+use crate::recover::segments::{GoOn, SegmentIndex, Subsegments, recover_segments};
 use crate::report::{Phase, Report};
 use crate::update::{DeletionCounts, PolygonDeletion};
+use open::encloses_nothing;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// What the user chooses.
@@ -29,8 +38,7 @@ use std::sync::Arc;
 pub struct Options {
     /// How polygons are inserted.
     pub insertion: Insertion,
-    /// Keep everything in the convex hull of the vertices, instead of what the facets enclose. Where they enclose nothing
-    /// the hull is kept in any case ([`Report::hull_instead`]).
+    /// Keep everything in the convex hull of the vertices, instead of what the facets enclose.
     pub keep_hull: bool,
     /// Merge facets that are exactly coplanar, adjacent and equally marked into one polygon, so that their common edges
     /// are not constrained.
@@ -97,6 +105,18 @@ impl Cdt<DoublePoints> {
     /// # Errors
     /// [`Failure`], naming the vertices, segments or facets.
     pub fn begin(plc: &Plc, options: &Options, report: &mut Report) -> Result<Self, Failure> {
+        Cdt::begin_watched(plc, options, report, &|_| true, false)
+    }
+
+    /// [`Cdt::begin`], with somebody who is told how many Steiner points will be needed at least, and may stop the run. If the
+    /// polygons `must_enclose` something, and it is clear that they do not, no Steiner points are searched for.
+    fn begin_watched(
+        plc: &Plc,
+        options: &Options,
+        report: &mut Report,
+        go_on: &GoOn<'_>,
+        must_enclose: bool,
+    ) -> Result<Self, Failure> {
         report.steiner = options.steiner;
         report.input_vertices = plc.vertices.len();
         report.input_facets = plc.facets.len();
@@ -115,7 +135,8 @@ impl Cdt<DoublePoints> {
             .filter(|&v| complex.representative[v.index()] == v)
             .collect();
         report.duplicate_vertices = points.len() - distinct.len();
-        // What flips in a rounded order do may depend on how the tetrahedra are stored, and that on the number of threads.
+        // What flips in a rounded order do may depend on how the tetrahedra are stored, and that on the number of
+        // threads.
         let rounded = matches!(options.insertion, Insertion::Flip(times) if !times.is_exact());
         let mut delaunay = report.time(Phase::Delaunay, |_| {
             if rounded {
@@ -125,9 +146,18 @@ impl Cdt<DoublePoints> {
             }
         })?;
         report.delaunay_tets = delaunay.mesh.finite().count();
+        let nothing = OnceCell::new();
+        let watch = |needed: usize| {
+            let nothing =
+                nothing.get_or_init(|| encloses_nothing(&complex).filter(|_| must_enclose));
+            nothing.is_none() && go_on(needed)
+        };
         let recovered = report.time(Phase::Segments, |_| {
-            recover_segments(&complex, &mut points, &mut delaunay)
+            recover_segments(&complex, &mut points, &mut delaunay, &watch)
         });
+        if let Some(error) = nothing.into_inner().flatten() {
+            return Err(error.into());
+        }
         report.steiner_points = points.len() - plc.vertices.len();
         report.steiner_not_doubles = points.count_not_double();
         let (mut subsegments, mut incidence) = recovered?;
@@ -281,13 +311,13 @@ impl Cdt<DoublePoints> {
         self.scratch.task_seconds()
     }
 
-    /// Deletes polygon `f`, an index in [`Complex::polygons`], from the mesh, which becomes what it would be if `f` had
-    /// never been inserted. Its segments stay. [`Cdt::export`] then does not know the polygon: its triangles are no faces
-    /// of the mesh, and it bounds nothing.
+    /// Deletes polygon `f`, an index in [`Complex::polygons`], from the mesh, which becomes what it would be if `f`
+    /// had never been inserted. Its segments stay. [`Cdt::export`] then does not know the polygon: its triangles are
+    /// no faces of the mesh, and it bounds nothing.
     ///
-    /// Bistellar flips in exact order, those of the insertion backwards (Shewchuk 2003): the time depends on the part of
-    /// the mesh that changes, not on its size. A polygon that is exactly flat, with the Steiner points on its boundary,
-    /// can always be deleted.
+    /// Bistellar flips in exact order, those of the insertion backwards (Shewchuk 2003): the time depends on the part
+    /// of the mesh that changes, not on its size. A polygon that is exactly flat, with the Steiner points on its
+    /// boundary, can always be deleted.
     ///
     /// ```
     /// # use tetflip::{cdt::Cdt, error::DeletionRefused, mesh::VertexId, plc::{Facet, Plc}};
@@ -393,7 +423,8 @@ impl Cdt<DoublePoints> {
     }
 }
 
-/// The whole pipeline. `report` is filled as far as the run came; `progress` is told how many polygons are done.
+/// The whole pipeline, once, without the policy of [`mesh`]: failures are as the algorithm runs into them. `report`
+/// is filled as far as the run came; `progress` is told how many polygons are done.
 ///
 /// # Errors
 /// [`Failure`]; there is no partial mesh.
@@ -403,13 +434,19 @@ pub fn tetrahedralize(
     report: &mut Report,
     progress: &mut dyn FnMut(usize),
 ) -> Result<ExportedMesh, Failure> {
-    let mut cdt = Cdt::begin(plc, options, report)?;
+    run(plc, options, report, progress, &|_| true)
+}
+
+/// [`tetrahedralize`], with somebody who may stop the run.
+fn run(
+    plc: &Plc,
+    options: &Options,
+    report: &mut Report,
+    progress: &mut dyn FnMut(usize),
+    go_on: &GoOn<'_>,
+) -> Result<ExportedMesh, Failure> {
+    let must_enclose = !options.keep_hull;
+    let mut cdt = Cdt::begin_watched(plc, options, report, go_on, must_enclose)?;
     cdt.insert_polygons(options.insertion, report, progress)?;
-    match cdt.export(plc, options.keep_hull, report) {
-        Err(Failure::GaveUp(GaveUp::NothingInside)) => {
-            report.hull_instead = true;
-            cdt.export(plc, true, report)
-        }
-        result => result,
-    }
+    cdt.export(plc, options.keep_hull, report)
 }

@@ -89,10 +89,13 @@ fn notes(plc: &Plc, findings: &Findings) -> Vec<String> {
     /// How many are named.
     const SHOWN: usize = 5;
     let mut lines = Vec::new();
-    let mut note = |count: usize, what: &str, names: Vec<String>| {
+    let mut note = |code: &str, count: usize, what: &str, names: Vec<String>| {
         if count > 0 {
             let more = if count > names.len() { ", …" } else { "" };
-            lines.push(format!("note: {count} {what}: {}{more}", names.join(", ")));
+            lines.push(format!(
+                "note[{code}]: {count} {what}: {}{more}",
+                names.join(", ")
+            ));
         }
     };
     let vertex = |v: VertexId| VertexName::new(plc, v);
@@ -100,6 +103,7 @@ fn notes(plc: &Plc, findings: &Findings) -> Vec<String> {
     let found = &findings.notes;
     let duplicates = found.duplicate_vertices.iter().take(SHOWN);
     note(
+        "duplicate-vertices",
         found.duplicate_vertices.len(),
         "vertices coincide with earlier ones and are taken for them",
         duplicates
@@ -108,11 +112,13 @@ fn notes(plc: &Plc, findings: &Findings) -> Vec<String> {
     );
     let unused = found.unused_vertices.iter().take(SHOWN);
     note(
+        "unused-vertices",
         found.unused_vertices.len(),
         "vertices belong to no facet and no segment",
         unused.map(|&v| vertex(v).to_string()).collect(),
     );
     note(
+        "open-edges",
         found.open_edges.len(),
         "edges bound one facet only (open surface)",
         found
@@ -124,6 +130,7 @@ fn notes(plc: &Plc, findings: &Findings) -> Vec<String> {
     );
     let branching = found.branching_edges.iter().take(SHOWN);
     note(
+        "branching-edges",
         found.branching_edges.len(),
         "edges bound more than two facets",
         branching

@@ -1,10 +1,10 @@
 //! `tetflip delaunay`: the Delaunay tetrahedralization of the vertices of a file.
 
-use super::{Stop, check_outputs, read, save, say};
+use super::{Stop, check_outputs, read, say};
 use std::path::PathBuf;
 use tetflip::delaunay::delaunay;
-use tetflip::exchange::ExportedMesh;
-use tetflip::exchange::Plc;
+use tetflip::exchange::{ExportedMesh, Plc};
+use tetflip::format::write_mesh;
 use tetflip::mesh::VertexId;
 use tetflip::plc::Complex;
 use tetflip::predicate::DoublePoints;
@@ -44,7 +44,7 @@ pub(crate) fn delaunay_of_file(arguments: &DelaunayArguments) -> Result<(), Stop
         drop((distinct, complex));
         let first_index = vertices_only.first_index;
         let mesh = ExportedMesh::of_hull(first_index, points.into_vec(), mesh);
-        save(Some(path), &mesh)?;
+        write_mesh(path, &mesh).map_err(Stop::input)?;
     }
     if !arguments.quiet {
         say(&format!(

@@ -1,14 +1,14 @@
 //! `tetflip mesh`: the CDT of a PLC.
 
-use super::{Stop, check_outputs, failure_path, read, save, say, warn};
+use super::output::{Output, STDOUT};
+use super::{Stop, check_outputs, failure_path, read, warn};
 use clap::ValueEnum;
 use serde::Serialize;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
-use tetflip::cdt::{Options, tetrahedralize};
-use tetflip::check::check;
-use tetflip::error::{Failure, GaveUp, InvalidPlc};
-use tetflip::exchange::Plc;
+use std::path::PathBuf;
+use tetflip::cdt::{MeshError, MeshOptions, Meshed, SteinerChoice, mesh_with_progress};
+use tetflip::error::Failure;
+use tetflip::exchange::{Note, Plc};
 use tetflip::format::{write_complete, write_poly};
 use tetflip::predicate::Steiner;
 use tetflip::recover::polygons::{FlipOrder, Insertion};
@@ -19,30 +19,37 @@ use tetflip::verify::{Domain, VerifyOptions, verify};
 pub(crate) struct MeshArguments {
     /// The PLC: .poly, .smesh, .node, .off, .stl, .ply, .obj or .mesh.
     input: PathBuf,
-    /// Where to write the mesh: NAME.node writes NAME.node, .ele, .face and .edge; NAME.vtu is for ParaView.
+    /// Where to write the mesh: NAME.node writes NAME.node, .ele, .face and .edge; NAME.vtu is for ParaView; `-`
+    /// writes to stdout what --format says.
     #[arg(short, long)]
     output: Option<PathBuf>,
+    /// The format of `-`: vtu.
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<String>,
     /// How polygons are inserted.
     #[arg(long, value_enum, default_value_t = InsertArgument::Flip)]
     insert: InsertArgument,
     /// The number type of the flip queue (with --insert flip).
     ///
-    /// Exact: `filtered` (mostly decided by floats), `exact` (dyadic), `rational`, `rug` (GMP, only if built with the feature
-    /// rug). Rounded, which can fail: `f64` (the paper's), `f32`, `bits:N` (N mantissa bits). All predicates of an
-    /// insertion rounded, which fails oftener: `naive` (doubles), `naive:N`. N is 8, 11, 14, 16, 18, 20, 22, 24, 26, 28, 32,
-    /// 36, 40, 44, 48, 53, 64, 80, 106, 160 or 256.
+    /// Exact: `filtered` (mostly decided by floats), `exact` (dyadic), `rational`, `rug` (GMP, only if built with the
+    /// feature rug). Rounded, which can fail: `f64` (the paper's), `f32`, `bits:N` (N mantissa bits). All predicates
+    /// of an insertion rounded, which fails oftener: `naive` (doubles), `naive:N`. N is 8, 11, 14, 16, 18, 20, 22,
+    /// 24, 26, 28, 32, 36, 40, 44, 48, 53, 64, 80, 106, 160 or 256.
     /// [default: filtered]
     #[arg(long, value_name = "TYPE")]
     times: Option<FlipOrder>,
     /// How Steiner points on segments are represented.
     #[arg(long, value_enum, default_value_t = SteinerArgument::Auto)]
     steiner: SteinerArgument,
-    /// Keep the whole convex hull instead of what the facets enclose. Where they enclose nothing it is kept in any case.
+    /// Keep the whole convex hull instead of what the facets enclose; hole points are ignored.
     #[arg(long)]
     hull: bool,
     /// Do not merge coplanar adjacent facets: constrain their common edges, too.
     #[arg(long)]
     no_merge: bool,
+    /// Leave out vertices that no tetrahedron has, and number the others anew: NAME.map holds old and new numbers.
+    #[arg(long)]
+    drop_unused: bool,
     /// Verify the mesh exactly before it is written.
     #[arg(long)]
     verify: bool,
@@ -76,124 +83,55 @@ enum SteinerArgument {
 
 /// Makes the CDT and writes it.
 pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
-    let mut options = Options {
+    let options = MeshOptions {
         insertion: insertion(arguments)?,
         keep_hull: arguments.hull,
         merge_coplanar: !arguments.no_merge,
         steiner: match arguments.steiner {
-            SteinerArgument::Auto | SteinerArgument::Rounded => Steiner::Rounded,
-            SteinerArgument::Exact => Steiner::Exact,
+            SteinerArgument::Auto => SteinerChoice::Auto,
+            SteinerArgument::Rounded => SteinerChoice::Rounded,
+            SteinerArgument::Exact => SteinerChoice::Exact,
         },
+        drop_unused: arguments.drop_unused,
     };
-    check_outputs(
-        &arguments.input,
-        arguments.output.as_deref(),
-        arguments.report.as_deref(),
-    )?;
-    let (plc, _) = read(&arguments.input)?;
-    let mut report = Report::default();
+    let output = Output::new(arguments.output.as_deref(), arguments.format.as_deref())?;
+    let report = arguments.report.as_deref();
+    check_outputs(&arguments.input, output.path(), report)?;
+    let (plc, read_notes) = read(&arguments.input)?;
     let bar = progress_bar(plc.facets.len(), arguments.quiet);
-    let mut result = tetrahedralize(&plc, &options, &mut report, &mut |done| {
-        bar.set_position(done as u64)
-    });
-    let mut notes = Vec::new();
-    let why = match &result {
-        _ if arguments.steiner != SteinerArgument::Auto => None,
-        Err(failure) if failure.is_due_to_rounding() => Some(failure.describe(&plc)),
-        // Whether such polygons can be inserted may depend on the algorithm; what this program makes should not.
-        Ok(_) if report.flattening.left_whole > 0 => Some(format!(
-            "{} polygons would need too many points to be cut into flat pieces",
-            report.flattening.left_whole
-        )),
-        _ => None,
-    };
-    if let Some(why) = why {
-        let exact = Options {
-            steiner: Steiner::Exact,
-            ..options
-        };
-        let mut exact_report = Report::default();
-        let again = tetrahedralize(&plc, &exact, &mut exact_report, &mut |done| {
-            bar.set_position(done as u64)
-        });
-        if again.is_ok() || result.is_err() {
-            notes.push(format!(
-                "with rounded Steiner points: {why}; made with exact ones"
-            ));
-            (options, report, result) = (exact, exact_report, again);
-        }
-    }
+    let result = mesh_with_progress(&plc, &options, &mut |done| bar.set_position(done as u64));
     bar.finish_and_clear();
-    if report.hull_instead {
-        let note = "the facets enclose nothing (an open surface?): the convex hull is kept";
-        notes.push(note.to_owned());
+    match result {
+        Ok(meshed) => finish(arguments, &output, &plc, read_notes, meshed),
+        Err(error) => Err(refuse(arguments, read_notes, error)),
     }
-    if !report.spoilt_by_rounding.is_empty() {
-        notes.push(spoilt_by_rounding(
-            &report.spoilt_by_rounding,
-            plc.first_index,
-        ));
-    }
-    let mut status = 2;
-    let outcome = match &result {
-        Ok(_) => "ok".to_owned(),
-        Err(failure) => {
-            let gave_up = matches!(failure, Failure::GaveUp(_));
-            match explanation(&arguments.input, &plc, failure) {
-                // Whatever the algorithm ran into, the input is to blame, and the check names facets more closely.
-                Some(why) if !matches!(failure, Failure::Plc(_)) => {
-                    format!("invalid PLC: {why}\n({})", failure.describe(&plc))
-                }
-                Some(why) => format!("{}\n{why}", failure.describe(&plc)),
-                None => {
-                    status = if gave_up { 1 } else { 2 };
-                    failure.describe(&plc)
-                }
-            }
-        }
-    };
-    if let Some(path) = &arguments.report {
-        write_report(path, &arguments.input, &outcome, &report)?;
-    }
-    let mesh = result.map_err(|failure| Stop {
-        message: match failure.region() {
-            Some(region) if status == 1 => outcome + &dump_region(arguments, region),
-            _ => outcome,
-        },
-        status,
-    })?;
+}
+
+/// Verifies a mesh, if that is wanted, writes it, and says what it is.
+fn finish(
+    arguments: &MeshArguments,
+    output: &Output,
+    plc: &Plc,
+    read_notes: Vec<Note>,
+    meshed: Meshed,
+) -> Result<(), Stop> {
+    let Meshed { mesh, mut report } = meshed;
+    print_and_join(read_notes, &mut report);
+    write_report(arguments, "ok", &report)?;
     if arguments.verify {
-        let domain = if arguments.hull || report.hull_instead {
-            Domain::Hull
-        } else {
-            Domain::Inside
-        };
-        let verdict = verify(
-            &plc,
-            &mesh,
-            VerifyOptions {
-                domain,
-                tolerance: match options.steiner {
-                    Steiner::Rounded => VerifyOptions::default().tolerance,
-                    Steiner::Exact => 0.0,
-                },
-                ..VerifyOptions::default()
-            },
-        );
+        let verdict = verify(plc, &mesh, verify_options(arguments, &report));
         report.verified_by_integers = Some(verdict.counts.exact_signs);
-        if let Some(path) = &arguments.report {
-            write_report(path, &arguments.input, "ok", &report)?;
-        }
+        write_report(arguments, "ok", &report)?;
         if !verdict.is_ok() {
             return Err(Stop::failed(format!(
                 "the mesh is not a CDT of the input, nothing is written\n{verdict}"
             )));
         }
     }
-    save(arguments.output.as_deref(), &mesh)?;
-    remove_old_region(arguments)?;
+    output.save(&mesh)?;
+    remove_old_region(output)?;
     if !arguments.quiet {
-        say(&format!(
+        output.say(&format!(
             "{} vertices ({} Steiner points), {} tetrahedra, {} faces on facets; {} flips{}",
             mesh.vertices.len(),
             report.steiner_points,
@@ -203,23 +141,54 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
             if arguments.verify { "; verified" } else { "" },
         ));
     }
-    notes.iter().for_each(|note| warn(note));
     Ok(())
 }
 
-/// Names the tetrahedra that are positive only with exact Steiner points.
-fn spoilt_by_rounding(tets: &[usize], first_index: u32) -> String {
-    const LISTED: usize = 20;
-    let names = tets.iter().take(LISTED);
-    let names: Vec<String> = names
-        .map(|t| (t + first_index as usize).to_string())
-        .collect();
-    format!(
-        "{} tetrahedra are positive, but not with Steiner points rounded to doubles: {}{} (the report lists all)",
-        tets.len(),
-        names.join(", "),
-        if tets.len() > LISTED { ", …" } else { "" }
-    )
+/// The message of a failure, after its report has been written.
+fn refuse(arguments: &MeshArguments, read_notes: Vec<Note>, mut error: MeshError) -> Stop {
+    print_and_join(read_notes, &mut error.report);
+    let mut message = error.to_string();
+    if let Err(stop) = write_report(arguments, &message, &error.report) {
+        return stop;
+    }
+    let input = arguments.input.display();
+    if error.findings.is_some() {
+        message += &format!("\nfor all that is wrong: tetflip check {input}");
+    }
+    if let Failure::Domain(domain) = &*error.failure
+        && !domain.open_edges().is_empty()
+    {
+        message += &format!("\nto see the open edges: tetflip check {input} -o bad.vtu");
+    }
+    if error.is_of_input() {
+        return Stop::input(message);
+    }
+    if let Some(region) = error.failure.region() {
+        message += &dump_region(arguments, region);
+    }
+    Stop::failed(message)
+}
+
+/// What the verifier is asked of a mesh that this program has made.
+fn verify_options(arguments: &MeshArguments, report: &Report) -> VerifyOptions {
+    let default = VerifyOptions::default();
+    VerifyOptions {
+        domain: match arguments.hull {
+            true => Domain::Hull,
+            false => Domain::Inside,
+        },
+        tolerance: match report.steiner {
+            Steiner::Rounded => default.tolerance,
+            Steiner::Exact => 0.0,
+        },
+        ..default
+    }
+}
+
+/// Prints the notes, also of a quiet run that succeeds, and puts those of the reader, which has printed them, in front.
+fn print_and_join(read_notes: Vec<Note>, report: &mut Report) {
+    report.notes.iter().for_each(|note| warn(&note.to_string()));
+    report.notes.splice(0..0, read_notes);
 }
 
 fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
@@ -234,8 +203,8 @@ fn insertion(arguments: &MeshArguments) -> Result<Insertion, Stop> {
 }
 
 /// Removes the region that an earlier run with the same output failed in: it is no part of this one.
-fn remove_old_region(arguments: &MeshArguments) -> Result<(), Stop> {
-    let Some(path) = arguments.output.as_deref().map(failure_path) else {
+fn remove_old_region(output: &Output) -> Result<(), Stop> {
+    let Some(path) = output.path().map(failure_path) else {
         return Ok(());
     };
     match std::fs::remove_file(&path) {
@@ -246,43 +215,9 @@ fn remove_old_region(arguments: &MeshArguments) -> Result<(), Stop> {
     }
 }
 
-/// What the check says of the input of a failed run, if it is not a valid PLC.
-fn explanation(input: &Path, plc: &Plc, failure: &Failure) -> Option<String> {
-    /// How many findings are listed.
-    const LISTED: usize = 8;
-    // Other failures are not about facets that intersect.
-    match failure {
-        Failure::Invalid(
-            InvalidPlc::PointOnPolygon { .. } | InvalidPlc::RegionsDisagree { .. },
-        )
-        | Failure::GaveUp(GaveUp::NothingInside)
-        | Failure::Delaunay(_)
-        | Failure::NoSuchPolygon(_) => return None,
-        Failure::Plc(_) | Failure::Invalid(_) | Failure::GaveUp(_) => {}
-    }
-    let findings = check(plc, Some(LISTED));
-    let told = failure.describe(plc);
-    let errors = findings.errors.iter().map(ToString::to_string);
-    let conflicts = findings.conflicts.iter().map(|c| c.describe(plc));
-    let mut lines: Vec<String> = errors
-        .chain(conflicts)
-        .filter(|line| !told.ends_with(line))
-        .collect();
-    if findings.is_valid() || lines.is_empty() {
-        return None;
-    }
-    if lines.len() > LISTED || findings.stopped {
-        lines.truncate(LISTED);
-        lines.push("…".to_owned());
-    }
-    let input = input.display();
-    lines.push(format!("for all that is wrong: tetflip check {input}"));
-    Some(lines.join("\n"))
-}
-
 /// Writes the region of failed flips, and says where it is and how to try again.
 fn dump_region(arguments: &MeshArguments, region: &Plc) -> String {
-    let Some(output) = &arguments.output else {
+    let Some(output) = arguments.output.as_deref().filter(|&path| path != STDOUT) else {
         return "; with --output, the region is written beside it".to_owned();
     };
     let path = failure_path(output);
@@ -306,9 +241,13 @@ struct ReportFile<'a> {
     report: &'a Report,
 }
 
-fn write_report(path: &Path, input: &Path, outcome: &str, report: &Report) -> Result<(), Stop> {
+/// Writes the report, if there is a place for it.
+fn write_report(arguments: &MeshArguments, outcome: &str, report: &Report) -> Result<(), Stop> {
+    let Some(path) = &arguments.report else {
+        return Ok(());
+    };
     let file = ReportFile {
-        input: input.display().to_string(),
+        input: arguments.input.display().to_string(),
         outcome,
         report,
     };

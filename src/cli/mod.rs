@@ -4,15 +4,14 @@ pub(crate) mod check;
 pub(crate) mod delaunay;
 pub(crate) mod generate;
 pub(crate) mod mesh;
+mod output;
 pub(crate) mod survey;
 pub(crate) mod verify;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tetflip::exchange::{ExportedMesh, Note, Plc};
-use tetflip::format::{
-    FormatError, mesh_paths, node_path, read_plc, read_poly, read_smesh, write_mesh,
-};
+use tetflip::exchange::{Note, Plc};
+use tetflip::format::{FormatError, mesh_paths, node_path, read_plc, read_poly, read_smesh};
 
 /// A failure with its exit status.
 pub(crate) struct Stop {
@@ -55,24 +54,25 @@ pub(crate) fn read(path: &Path) -> Result<(Plc, Vec<Note>), Stop> {
     Ok(read)
 }
 
-/// Writes a mesh, if there is a place for it.
-pub(crate) fn save(path: Option<&Path>, mesh: &ExportedMesh) -> Result<(), Stop> {
-    match path {
-        Some(path) => write_mesh(path, mesh).map(|_| ()).map_err(Stop::input),
-        None => Ok(()),
-    }
-}
-
-/// Refuses outputs that cannot be written or would replace an input, before any work is done.
+/// Refuses outputs that cannot be written, would replace an input, or each other, before any work is done.
 pub(crate) fn check_outputs(
     input: &Path,
     mesh: Option<&Path>,
     report: Option<&Path>,
 ) -> Result<(), Stop> {
-    let mut outputs: Vec<PathBuf> = report.map(Path::to_path_buf).into_iter().collect();
+    let mut outputs: Vec<PathBuf> = Vec::new();
     if let Some(path) = mesh {
         outputs.extend(mesh_paths(path).map_err(Stop::input)?);
         outputs.push(failure_path(path));
+    }
+    if let Some(report) = report {
+        if outputs.iter().any(|output| is_same_place(output, report)) {
+            let name = report.display();
+            return Err(Stop::input(format!(
+                "{name} would be both a report and a file of the mesh; choose another name"
+            )));
+        }
+        outputs.push(report.to_path_buf());
     }
     let node = node_path(input);
     for output in outputs {
@@ -88,6 +88,19 @@ pub(crate) fn check_outputs(
         }
     }
     Ok(())
+}
+
+/// Whether two paths are those of one file, which need not be there.
+fn is_same_place(first: &Path, second: &Path) -> bool {
+    let full = |path: &Path| {
+        path.canonicalize().unwrap_or_else(|_| {
+            let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
+            let parent = parent.unwrap_or(Path::new("."));
+            let parent = parent.canonicalize().unwrap_or(parent.to_path_buf());
+            parent.join(path.file_name().unwrap_or_default())
+        })
+    };
+    full(first) == full(second)
 }
 
 /// Whether the vertices of a `.poly` or `.smesh` file are in the `.node` file beside it.

@@ -24,8 +24,28 @@ pub struct ExportedMesh {
     pub regions: Vec<f64>,
     /// The faces that lie on input facets (and, where the convex hull is kept, the faces of the hull).
     pub faces: Vec<ExportedFace>,
+    /// What the faces lie on and between; empty if that is not known.
+    pub face_table: FaceTable,
+    /// The number of the region of each tetrahedron, from 1 on: parts of the domain that facets divide, in the order of
+    /// their first tetrahedra. Empty if they are not known.
+    pub region_numbers: Vec<u32>,
     /// The edges that lie on input segments.
     pub edges: Vec<ExportedEdge>,
+    /// The number in the input of each of its vertices that is in the mesh, and the vertex. Empty if all vertices of
+    /// the input are there and numbered like the mesh's.
+    pub renumbered: Vec<(i64, VertexId)>,
+}
+
+/// What the faces of a mesh lie on and between.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FaceTable {
+    /// The regions on both sides of each face: the one from which the face looks clockwise, and the one from which it
+    /// looks counterclockwise. 0 is what is not in the mesh.
+    pub sides: Vec<[u32; 2]>,
+    /// The polygon that each face lies on, counted from 1; 0 for a face of the convex hull that is on none.
+    pub polygons: Vec<u32>,
+    /// The input facets, by index, that each polygon consists of: one, or several that are coplanar.
+    pub facets: Vec<Vec<usize>>,
 }
 
 /// The exact position a + t(b−a) of a Steiner point whose coordinates are no doubles.
@@ -39,7 +59,8 @@ pub struct ExactPosition {
     pub t: Parameter,
 }
 
-/// A triangular face with the marker of its input facet.
+/// A triangular face with the marker of its input facet. It is counterclockwise for one who looks at it from outside of
+/// the mesh or, where both sides are in it, from the region with the higher number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ExportedFace {
     /// The three vertices.

@@ -4,7 +4,8 @@ mod hull;
 mod mesh;
 mod note;
 mod plc;
+mod unused;
 
-pub use mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
+pub use mesh::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh, FaceTable};
 pub use note::{Note, NoteCode};
 pub use plc::{Attributes, Facet, Plc, Region, Segment};

@@ -12,8 +12,6 @@ pub enum NoteCode {
     /// Tetrahedra that are positive with exact Steiner points only, not with their rounded coordinates
     /// (`spoilt-by-rounding`).
     SpoiltByRounding,
-    /// The convex hull is kept because the facets enclose nothing (`hull-instead`).
-    HullInstead,
     /// All tetrahedra of a mesh are negative, and are read with the other orientation (`negative-tetrahedra`).
     NegativeTetrahedra,
     /// Facets without an area claim nothing (`degenerate-facets`).
@@ -42,6 +40,20 @@ pub enum NoteCode {
     FacetsOverlap,
     /// A polygon has the same corner several times in a row; one of them is left (`repeated-corner`).
     RepeatedCorner,
+    /// Vertices that have other numbers in the mesh than in the input (`renumbered`).
+    Renumbered,
+    /// Edges of one facet only, inside the domain: fins, cracks, floating sheets (`open-edges`).
+    OpenEdges,
+    /// Facets of which nothing is in the mesh, since both sides of them are outside (`facets-outside`).
+    FacetsOutside,
+    /// Hole points outside of everything that the facets enclose (`hole-outside`).
+    HoleOutside,
+    /// Hole points, where the whole convex hull is kept (`hole-ignored`).
+    HoleIgnored,
+    /// Region points outside of the domain (`region-outside`).
+    RegionOutside,
+    /// Bounds of volumes, which are not applied, as nothing is refined (`region-volume`).
+    RegionVolume,
 }
 
 impl NoteCode {
@@ -50,7 +62,6 @@ impl NoteCode {
         match self {
             NoteCode::ExactSteiner => "exact-steiner",
             NoteCode::SpoiltByRounding => "spoilt-by-rounding",
-            NoteCode::HullInstead => "hull-instead",
             NoteCode::NegativeTetrahedra => "negative-tetrahedra",
             NoteCode::DegenerateFacets => "degenerate-facets",
             NoteCode::RepeatedFacets => "repeated-facets",
@@ -65,6 +76,13 @@ impl NoteCode {
             NoteCode::EdgeInFacet => "edge-in-facet",
             NoteCode::FacetsOverlap => "facets-overlap",
             NoteCode::RepeatedCorner => "repeated-corner",
+            NoteCode::Renumbered => "renumbered",
+            NoteCode::OpenEdges => "open-edges",
+            NoteCode::FacetsOutside => "facets-outside",
+            NoteCode::HoleOutside => "hole-outside",
+            NoteCode::HoleIgnored => "hole-ignored",
+            NoteCode::RegionOutside => "region-outside",
+            NoteCode::RegionVolume => "region-volume",
         }
     }
 }
@@ -161,8 +179,11 @@ mod tests {
 
     #[test]
     fn a_note_displays_with_its_code() {
-        let note = Note::new(NoteCode::HullInstead, 1, "the hull is kept").on_facets([3]);
-        assert_eq!(note.to_string(), "note[hull-instead]: the hull is kept");
+        let note = Note::new(NoteCode::FacetsOutside, 1, "facet 3 is left out").on_facets([3]);
+        assert_eq!(
+            note.to_string(),
+            "note[facets-outside]: facet 3 is left out"
+        );
         assert_eq!(note.facets, [3]);
     }
 

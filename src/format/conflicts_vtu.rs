@@ -1,23 +1,25 @@
-//! What a check found, for ParaView (`.vtu`): the facets, segments and vertices in question as triangles, lines and points.
+//! What a check found, for ParaView (`.vtu`): the facets, segments and vertices in question as triangles, lines and
+//! points.
 //!
-//! Every conflict writes both of its parts and the point of the intersection, so a facet with several conflicts is there
-//! several times. Cell data: `pair` (the number of the conflict in the list, from 0; −1 for what is wrong for itself),
-//! `kind` (0 same facet, 1 facets overlap, 2 facets cross, 3 edge in facet, 4 edges overlap, 5 edge through facet,
-//! 6 vertex in facet, 7 edges cross, 8 vertex on edge, 9 wrong for itself), `role` (0 and 1 for the two parts, 2 for the
-//! point) and `facet` (its number as in messages, −1 for what is none).
+//! Every conflict writes both of its parts and the point of the intersection, so a facet with several conflicts is
+//! there several times. Cell data: `pair` (the number of the conflict in the list, from 0; −1 for what is in none),
+//! `kind` (0 same facet, 1 facets overlap, 2 facets cross, 3 edge in facet, 4 edges overlap, 5 edge through facet, 6
+//! vertex in facet, 7 edges cross, 8 vertex on edge, 9 wrong for itself, 10 open edge: of one facet only), `role` (0
+//! and 1 for the two parts, 2 for the point) and `facet` (its number as in messages, −1 for what is none).
 
 use super::MeshFileError;
-use super::mesh_file::stage;
+use super::staged::stage;
 use super::vtu::{array, begin, close, open, rows};
 use crate::check::{Findings, Kind, Part, simplices_of_parts};
 use crate::exchange::Plc;
 use crate::mesh::VertexId;
+use crate::plc::FacetName;
 use rustc_hash::FxHashMap;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes the parts that are in conflict, and the facets that are wrong for themselves, for ParaView. The file is written
-/// whole or not at all.
+/// Writes the parts that are in conflict, the facets that are wrong for themselves and the open edges, for ParaView.
+/// The file is written whole or not at all.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -75,7 +77,7 @@ impl Cells {
 fn cells(plc: &Plc, findings: &Findings) -> Cells {
     let mut cells = Cells::default();
     let number = |part: Part| match part {
-        Part::Facet(index) => index as i64 + i64::from(plc.first_index),
+        Part::Facet(index) => FacetName::new(plc, index).number,
         _ => -1,
     };
     let simplices = simplices_of_parts(plc);
@@ -110,6 +112,16 @@ fn cells(plc: &Plc, findings: &Findings) -> Cells {
             };
             cells.add(plc, polygon, wrong);
         }
+    }
+    for edge in &findings.notes.open_edges {
+        let open = Cell {
+            points: Vec::new(),
+            pair: -1,
+            kind: 10,
+            role: 0,
+            facet: -1,
+        };
+        cells.add(plc, edge, open);
     }
     cells
 }

@@ -1,5 +1,5 @@
-//! Many lines of numbers to a file: formatted in blocks by all threads, written in order. The bytes are the same with any
-//! number of threads.
+//! Many lines of numbers to a file: formatted in blocks by all threads, written in order. The bytes are the same with
+//! any number of threads.
 
 use super::mesh_file::Shortest;
 use rayon::prelude::*;
@@ -31,11 +31,16 @@ impl Lines {
         self.number(number);
     }
 
-    /// A marker after a space.
-    pub fn next_marker(&mut self, marker: i64) {
-        self.text.push(b' ');
+    /// A whole number with a sign.
+    pub fn marker(&mut self, marker: i64) {
         self.text
             .extend_from_slice(self.digits.format(marker).as_bytes());
+    }
+
+    /// The same after a space.
+    pub fn next_marker(&mut self, marker: i64) {
+        self.text.push(b' ');
+        self.marker(marker);
     }
 
     /// A double after a space.

@@ -27,6 +27,12 @@ pub enum MeshFileError {
         /// The path given.
         path: PathBuf,
     },
+    /// The format is not one of a single file.
+    #[error("{format:?} is no format of a mesh in one file; \"vtu\" is")]
+    SingleFile {
+        /// The format given.
+        format: String,
+    },
     /// A line of a file is wrong.
     #[error("{}:{line}: {reason}", .path.display())]
     Line {
@@ -115,8 +121,8 @@ pub enum MeshLineError {
 /// What keeps a mesh from being written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum UnwritableMesh {
-    /// Files count from 0 or from 1.
-    #[error("its first index is {0}, neither 0 nor 1")]
+    /// The numbers of the vertices would be too large.
+    #[error("its first index is {0}, too large for numbers of 32 bits")]
     FirstIndex(u32),
     /// A coordinate is infinite or not a number.
     #[error("vertex {0} has a coordinate that is not finite")]
@@ -129,6 +135,22 @@ pub enum UnwritableMesh {
         /// The number of tetrahedra.
         tets: usize,
     },
+    /// A table has not as many rows as what it is about.
+    #[error("{rows} {what}, where {expected} are expected")]
+    RowCount {
+        /// What the rows are.
+        what: &'static str,
+        /// How many rows there are.
+        rows: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// An attribute of a vertex is infinite or not a number.
+    #[error("vertex {0} has an attribute that is not finite")]
+    Attribute(usize),
+    /// A face lies on a polygon that is not there, or that has no facets.
+    #[error("face {0} lies on a polygon that does not exist")]
+    FacePolygon(usize),
     /// A region attribute is infinite or not a number.
     #[error("tetrahedron {0} has a region attribute that is not finite")]
     Region(usize),

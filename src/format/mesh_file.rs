@@ -6,19 +6,21 @@
 //!
 //! Extensions may be written in capitals, and then the other files' are as well: `M.ELE` stands beside `M.NODE`.
 
-use super::{MeshFileError, UnwritableMesh, medit_mesh, sibling, tetgen_mesh, vtu};
+use super::staged::{Staged, stage};
+use super::{MeshFileError, UnwritableMesh, medit_mesh, sibling, tetgen_mesh, tetgen_writer, vtu};
 use crate::exchange::ExportedMesh;
 use crate::mesh::VertexId;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// Writes a mesh and returns the paths written.
 ///
 /// `NAME.node`, `NAME.ele`, `NAME.face` or `NAME.edge`, whichever is given, writes all four, for TetGen and its
-/// friends; every double is read back bit by bit as it was. If some vertices are exactly elsewhere, `NAME.steiner` says
-/// where; otherwise a file of that name is removed, since it would be about another mesh. `NAME.vtu` writes one file for
-/// ParaView, which [`read_mesh`] does not read.
+/// friends; every double is read back bit by bit as it was. Beside them stand, where there is something to say,
+/// `NAME.facets` (what the faces lie on and between), `NAME.steiner` (where vertices are exactly, if that is not
+/// where their coordinates are) and `NAME.map` (old and new numbers of vertices); otherwise files of these names are
+/// removed, since they would be about another mesh. `NAME.vtu` writes one file for ParaView, which [`read_mesh`] does
+/// not read.
 ///
 /// # Errors
 /// If the extension is another, if the mesh names vertices that it does not have or holds numbers that are not
@@ -27,60 +29,75 @@ use tempfile::NamedTempFile;
 pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, MeshFileError> {
     let format = Format::to_write(path)?;
     check(mesh)?;
-    let mut staged: Vec<Staged> = match format {
-        Format::TetGen => [
-            stage(sibling(path, "node"), |out| {
-                tetgen_mesh::write_node(out, mesh)
-            })?,
-            stage(sibling(path, "ele"), |out| {
-                tetgen_mesh::write_ele(out, mesh)
-            })?,
-            stage(sibling(path, "face"), |out| {
-                tetgen_mesh::write_face(out, mesh)
-            })?,
-            stage(sibling(path, "edge"), |out| {
-                tetgen_mesh::write_edge(out, mesh)
-            })?,
-        ]
-        .into(),
-        Format::Vtu => vec![stage(path.to_path_buf(), |out| vtu::write(out, mesh))?],
-    };
-    let exact = sibling(path, "steiner");
-    let has_exact = matches!(format, Format::TetGen) && !mesh.exact.is_empty();
-    if has_exact {
-        staged.push(stage(exact.clone(), |out| {
-            tetgen_mesh::write_steiner(out, mesh)
-        })?);
+    let mut staged = Vec::new();
+    let mut absent = Vec::new();
+    match format {
+        Format::Vtu => staged.push(stage(path.to_path_buf(), |out| vtu::write(out, mesh))?),
+        Format::TetGen => {
+            for (extension, write, is_there) in TETGEN {
+                let path = sibling(path, extension);
+                if is_there(mesh) {
+                    staged.push(stage(path, |out| write(out, mesh))?);
+                } else {
+                    absent.push(path);
+                }
+            }
+        }
     }
     staged.iter().try_for_each(Staged::check_place)?;
-    if matches!(format, Format::TetGen)
-        && !has_exact
-        && let Err(source) = std::fs::remove_file(&exact)
-        && source.kind() != io::ErrorKind::NotFound
-    {
-        return Err(MeshFileError::Io {
-            path: exact,
-            source,
-        });
+    for path in absent {
+        if let Err(source) = std::fs::remove_file(&path)
+            && source.kind() != io::ErrorKind::NotFound
+        {
+            return Err(MeshFileError::Io { path, source });
+        }
     }
     staged.into_iter().map(Staged::publish).collect()
 }
 
-/// Writes a file of any kind, which is complete or, if that fails, not there (or as it was). What is no file but a pipe or
-/// a terminal is written to as it stands.
+/// Writes a mesh in a format that is one file to wherever it shall go; `format` is the extension of such files, "vtu".
 ///
 /// # Errors
-/// If it cannot be written.
-pub fn write_complete(path: &Path, bytes: &[u8]) -> Result<(), MeshFileError> {
-    if path.metadata().is_ok_and(|place| !place.is_file()) {
-        return std::fs::write(path, bytes).map_err(|source| MeshFileError::Io {
-            path: path.to_path_buf(),
-            source,
+/// If the format is another, if the mesh is not one that a file can hold (then nothing has been written), or if `out`
+/// refuses.
+pub fn write_mesh_to(
+    out: &mut dyn Write,
+    format: &str,
+    mesh: &ExportedMesh,
+) -> Result<(), MeshFileError> {
+    if !matches!(Format::of_extension(format), Some(Format::Vtu)) {
+        return Err(MeshFileError::SingleFile {
+            format: format.to_owned(),
         });
     }
-    let staged = stage(path.to_path_buf(), |out| out.write_all(bytes))?;
-    staged.publish().map(|_| ())
+    check(mesh)?;
+    let mut out = BufWriter::new(out);
+    let written = vtu::write(&mut out, mesh).and_then(|()| out.flush());
+    written.map_err(|source| MeshFileError::Io {
+        path: PathBuf::from("-"),
+        source,
+    })
 }
+
+type IsThere = fn(&ExportedMesh) -> bool;
+type Writer = fn(&mut dyn Write, &ExportedMesh) -> io::Result<()>;
+
+/// The files of a mesh in TetGen's format, and ours beside them: extension, writer, and whether a mesh has such a file.
+const TETGEN: [(&str, Writer, IsThere); 7] = [
+    ("node", tetgen_writer::write_node, |_| true),
+    ("ele", tetgen_writer::write_ele, |_| true),
+    ("face", tetgen_writer::write_face, |_| true),
+    ("edge", tetgen_writer::write_edge, |_| true),
+    ("facets", tetgen_writer::write_facets, |mesh| {
+        !mesh.face_table.sides.is_empty()
+    }),
+    ("steiner", tetgen_writer::write_steiner, |mesh| {
+        !mesh.exact.is_empty()
+    }),
+    ("map", tetgen_writer::write_map, |mesh| {
+        !mesh.renumbered.is_empty()
+    }),
+];
 
 /// The files that [`write_mesh`] writes for `path`.
 ///
@@ -88,15 +105,16 @@ pub fn write_complete(path: &Path, bytes: &[u8]) -> Result<(), MeshFileError> {
 /// If the extension names no format that can be written.
 pub fn mesh_paths(path: &Path) -> Result<Vec<PathBuf>, MeshFileError> {
     Ok(match Format::to_write(path)? {
-        Format::TetGen => ["node", "ele", "face", "edge", "steiner"]
-            .map(|extension| sibling(path, extension))
-            .into(),
+        Format::TetGen => TETGEN
+            .iter()
+            .map(|(extension, ..)| sibling(path, extension))
+            .collect(),
         Format::Vtu => vec![path.to_path_buf()],
     })
 }
 
-/// Reads `NAME.node` and `NAME.ele`, and `NAME.face`, `NAME.edge` and `NAME.steiner` if they exist; `path` is any of the first
-/// four. Or reads `NAME.mesh`, one ASCII file of Medit.
+/// Reads `NAME.node` and `NAME.ele`, and `NAME.face`, `NAME.edge` and `NAME.steiner` if they exist; `path` is any of
+/// the first four. Or reads `NAME.mesh`, one ASCII file of Medit.
 ///
 /// Files of TetGen are read as well as ours: comments, marks and attributes of vertices and the extra columns of `-nn`
 /// are skipped; of several attributes of a tetrahedron the last is the region's, where TetGen puts it. What the
@@ -169,7 +187,8 @@ fn check(mesh: &ExportedMesh) -> Result<(), UnwritableMesh> {
         items.iter().position(|item| !good(item))
     }
     let exists = |v: &VertexId| v.index() < mesh.vertices.len();
-    if mesh.first_index > 1 {
+    let first = u64::from(mesh.first_index);
+    if first + mesh.vertices.len() as u64 > u64::from(u32::MAX) {
         return Err(UnwritableMesh::FirstIndex(mesh.first_index));
     }
     if !mesh.regions.is_empty() && mesh.regions.len() != mesh.tets.len() {
@@ -178,7 +197,17 @@ fn check(mesh: &ExportedMesh) -> Result<(), UnwritableMesh> {
             tets: mesh.tets.len(),
         });
     }
+    check_rows(mesh)?;
+    let columns = mesh.attributes.per_vertex.max(1);
+    let polygons = &mesh.face_table.facets;
+    let on_polygon = |&polygon: &u32| {
+        let facets = polygon.checked_sub(1).map(|f| polygons.get(f as usize));
+        facets.is_none_or(|facets| facets.is_some_and(|facets| !facets.is_empty()))
+    };
     let bad = [
+        first_bad(&mesh.attributes.values, |x| x.is_finite())
+            .map(|i| UnwritableMesh::Attribute(i / columns)),
+        first_bad(&mesh.face_table.polygons, on_polygon).map(UnwritableMesh::FacePolygon),
         first_bad(&mesh.vertices, |p| p.iter().all(|x| x.is_finite())).map(UnwritableMesh::Vertex),
         first_bad(&mesh.regions, |x| x.is_finite()).map(UnwritableMesh::Region),
         first_bad(&mesh.tets, |t| t.iter().all(exists)).map(UnwritableMesh::Tet),
@@ -195,66 +224,47 @@ fn check(mesh: &ExportedMesh) -> Result<(), UnwritableMesh> {
     bad.into_iter().flatten().next().map_or(Ok(()), Err)
 }
 
-/// A file that is complete but still has a temporary name. Dropped, it is gone.
-pub(super) struct Staged {
-    file: NamedTempFile,
-    path: PathBuf,
-}
-
-impl Staged {
-    /// A directory cannot be replaced.
-    fn check_place(&self) -> Result<(), MeshFileError> {
-        if self.path.is_dir() {
-            return Err(MeshFileError::Io {
-                path: self.path.clone(),
-                source: io::ErrorKind::IsADirectory.into(),
+/// Tables have as many rows as what they are about, or none.
+fn check_rows(mesh: &ExportedMesh) -> Result<(), UnwritableMesh> {
+    let (vertices, faces, tets) = (mesh.vertices.len(), mesh.faces.len(), mesh.tets.len());
+    let numbers = mesh.attributes.per_vertex.saturating_mul(vertices);
+    let values = mesh.attributes.values.len();
+    let table = &mesh.face_table;
+    let known = !table.sides.is_empty();
+    let if_any = |rows: usize, expected: usize| if rows == 0 { 0 } else { expected };
+    for (what, rows, expected) in [
+        ("attributes of vertices", values, numbers),
+        (
+            "markers of vertices",
+            mesh.vertex_markers.len(),
+            if_any(mesh.vertex_markers.len(), vertices),
+        ),
+        (
+            "rows in the table of faces",
+            table.sides.len(),
+            if_any(table.sides.len(), faces),
+        ),
+        (
+            "polygons in the table of faces",
+            table.polygons.len(),
+            table.sides.len(),
+        ),
+        (
+            "numbers of regions",
+            mesh.region_numbers.len(),
+            match known {
+                true => tets,
+                false => if_any(mesh.region_numbers.len(), tets),
+            },
+        ),
+    ] {
+        if rows != expected {
+            return Err(UnwritableMesh::RowCount {
+                what,
+                rows,
+                expected,
             });
         }
-        Ok(())
     }
-
-    pub fn publish(self) -> Result<PathBuf, MeshFileError> {
-        match self.file.persist(&self.path) {
-            Ok(_) => Ok(self.path),
-            Err(error) => Err(MeshFileError::Io {
-                path: self.path,
-                source: error.error,
-            }),
-        }
-    }
-}
-
-pub(super) fn stage(
-    path: PathBuf,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<Staged, MeshFileError> {
-    let written = || -> io::Result<NamedTempFile> {
-        let file = temporary_beside(&path)?;
-        let mut out = BufWriter::new(&file);
-        write(&mut out)?;
-        out.flush()?;
-        drop(out);
-        Ok(file)
-    };
-    match written() {
-        Ok(file) => Ok(Staged { file, path }),
-        Err(source) => Err(MeshFileError::Io { path, source }),
-    }
-}
-
-/// A temporary file in the directory of `path`, so that it can be renamed to it, with the permissions of any new file
-/// (temporary files are private by default).
-fn temporary_beside(path: &Path) -> io::Result<NamedTempFile> {
-    let directory = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".tetflip-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(directory)
+    Ok(())
 }

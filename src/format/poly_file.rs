@@ -1,7 +1,8 @@
 //! PLCs to TetGen's `.poly` format; [`super::read_poly`] reads them back as they were, every double bit by bit.
 
 use super::MeshFileError;
-use super::mesh_file::{Shortest, stage};
+use super::mesh_file::Shortest;
+use super::staged::stage;
 use crate::exchange::Plc;
 use crate::mesh::VertexId;
 use std::io::{self, Write};

@@ -1,4 +1,4 @@
-//! TetGen's mesh files: `.node`, `.ele`, `.face`, `.edge`.
+//! TetGen's mesh files, read: `.node`, `.ele`, `.face`, `.edge`. ([`super::tetgen_writer`] writes them.)
 //!
 //! Each file is a header, then one numbered line per element; `#` begins a comment, blank lines are skipped.
 //!
@@ -15,85 +15,15 @@
 //! that vertices keep their order. Time and memory are linear in the size of the files, whatever a header says.
 
 use super::ahead::{Rows, read_ahead};
-use super::lines::{Lines, write_lines};
-use super::mesh_file::Shortest;
 use super::text::{Text, whole};
 use super::vertices::Vertices;
 use super::{MeshFileError, MeshLineError, sibling};
 use crate::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
 use crate::mesh::VertexId;
 use crate::number::Parameter;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
-
-/// Writes the vertices of a checked mesh.
-pub(super) fn write_node(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
-    writeln!(out, "{} 3 0 0", mesh.vertices.len())?;
-    let first = u64::from(mesh.first_index);
-    write_lines(out, &mesh.vertices, |line, i, p| {
-        line.number(first + i as u64);
-        p.iter().for_each(|&x| line.next_double(x));
-        line.end();
-    })
-}
-
-/// Writes the tetrahedra of a checked mesh.
-pub(super) fn write_ele(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
-    let attributes = usize::from(!mesh.regions.is_empty());
-    writeln!(out, "{} 4 {attributes}", mesh.tets.len())?;
-    write_lines(out, &mesh.tets, |line, i, tet| {
-        write_element(line, mesh, i, tet);
-        if let Some(&region) = mesh.regions.get(i) {
-            line.next_double(region);
-        }
-        line.end();
-    })
-}
-
-/// Writes the faces of a checked mesh.
-pub(super) fn write_face(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
-    writeln!(out, "{} 1", mesh.faces.len())?;
-    write_lines(out, &mesh.faces, |line, i, face| {
-        write_element(line, mesh, i, &face.vertices);
-        line.next_marker(face.marker);
-        line.end();
-    })
-}
-
-/// Writes the edges of a checked mesh.
-pub(super) fn write_edge(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
-    writeln!(out, "{} 1", mesh.edges.len())?;
-    write_lines(out, &mesh.edges, |line, i, edge| {
-        write_element(line, mesh, i, &edge.vertices);
-        line.next_marker(edge.marker);
-        line.end();
-    })
-}
-
-/// The number of an element and its vertices.
-fn write_element(line: &mut Lines, mesh: &ExportedMesh, i: usize, vertices: &[VertexId]) {
-    let first = u64::from(mesh.first_index);
-    line.number(first + i as u64);
-    for v in vertices {
-        line.next(first + u64::from(v.0));
-    }
-}
-
-/// Writes the exact positions of a checked mesh.
-pub(super) fn write_steiner(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
-    writeln!(out, "{}", mesh.exact.len())?;
-    let name = |v: VertexId| u64::from(mesh.first_index) + u64::from(v.0);
-    for ExactPosition { vertex, ends, t } in &mesh.exact {
-        let [a, b] = ends.map(name);
-        write!(out, "{} {a} {b} {}", name(*vertex), Shortest(t.value))?;
-        if t.rest != 0.0 {
-            write!(out, " {}", Shortest(t.rest))?;
-        }
-        writeln!(out)?;
-    }
-    Ok(())
-}
 
 /// Bytes of a file that is worth another thread.
 const LARGE: u64 = 1 << 20;

@@ -1,9 +1,12 @@
 //! ParaView's unstructured grids, `.vtu` (VTK XML, ASCII), written only.
 //!
 //! The tetrahedra come first, then the faces as triangles. Cell data cover both: `kind` (3 for a tetrahedron, 2 for a
-//! triangle), `region` (0 for triangles and where there are no regions), `marker` (0 for tetrahedra). ParaView's
-//! orientation of a tetrahedron is ours: the first three vertices are counterclockwise for one who looks from
-//! the side away from the fourth.
+//! triangle), `region` (the attribute of the region; 0 for triangles and where there are no regions), `marker` (0 for
+//! tetrahedra), and what is known beyond these: `behind` and `front`, the numbers of the regions on both sides of a
+//! triangle, both the region of a tetrahedron (0: not in the mesh); `polygon` and `facet`, the polygon of a triangle
+//! and the first of its facets (0 for tetrahedra; see `tetgen_writer`). Point data: the attributes and the markers of
+//! vertices, if there are any. ParaView's orientation of a tetrahedron is ours: the first three vertices are
+//! counterclockwise for one who looks from the side away from the fourth.
 //!
 //! Written by hand, since the stable release of the crate `vtkio` (0.6) stands on releases of `nom` and `quick-xml`
 //! that rustc announces to reject, and 0.7 is a release candidate. ASCII keeps doubles: they have as many digits as
@@ -53,11 +56,60 @@ pub(super) fn write(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> 
         regions.map(|x| [Shortest(x)]),
     )?;
     let markers = std::iter::repeat_n(0, tets).chain(mesh.faces.iter().map(|f| f.marker));
-    array(out, r#"type="Int32" Name="marker""#, markers.map(|m| [m]))?;
+    array(out, r#"type="Int64" Name="marker""#, markers.map(|m| [m]))?;
     array(out, r#"type="UInt8" Name="kind""#, per_kind(3, 2))?;
+    face_table(out, mesh)?;
     writeln!(out, "</CellData>")?;
+    point_data(out, mesh)?;
 
     writeln!(out, "</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+/// What is known of cells beyond the files of TetGen, if it is.
+fn face_table(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
+    let table = &mesh.face_table;
+    if table.sides.is_empty() {
+        return Ok(());
+    }
+    for (side, name) in ["behind", "front"].into_iter().enumerate() {
+        let tets = mesh.region_numbers.iter().copied();
+        let numbers = tets.chain(table.sides.iter().map(|sides| sides[side]));
+        let attributes = format!(r#"type="Int64" Name="{name}""#);
+        array(out, &attributes, numbers.map(|x| [x]))?;
+    }
+    let tets = mesh.tets.len();
+    let polygons = std::iter::repeat_n(0, tets).chain(table.polygons.iter().copied());
+    array(
+        out,
+        r#"type="Int64" Name="polygon""#,
+        polygons.clone().map(|x| [x]),
+    )?;
+    let first = mesh.first_index.min(1) as usize;
+    let facet = |polygon: u32| {
+        let polygon = polygon.checked_sub(1)?;
+        Some(table.facets[polygon as usize][0] + first)
+    };
+    let facets = polygons.map(|polygon| facet(polygon).unwrap_or(0));
+    array(out, r#"type="Int64" Name="facet""#, facets.map(|x| [x]))
+}
+
+/// The attributes and markers of vertices, if there are any.
+fn point_data(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Result<()> {
+    let columns = mesh.attributes.per_vertex;
+    if columns == 0 && mesh.vertex_markers.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "<PointData>")?;
+    if columns > 0 {
+        let name = format!(r#"type="Float64" Name="attributes" NumberOfComponents="{columns}""#);
+        let values = mesh.attributes.values.iter();
+        array(out, &name, values.map(|&x| [Shortest(x)]))?;
+    }
+    if !mesh.vertex_markers.is_empty() {
+        let markers = mesh.vertex_markers.iter();
+        array(out, r#"type="Int64" Name="marker""#, markers.map(|&m| [m]))?;
+    }
+    writeln!(out, "</PointData>")
 }
 
 /// Everything up to the cells.

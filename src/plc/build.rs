@@ -22,6 +22,7 @@ impl Complex {
     /// are given twice, and, when merging, those that overlap beside a common edge.
     pub fn new(plc: &Plc, merge_coplanar: bool) -> Result<Complex, PlcError> {
         check_points(plc)?;
+        check_rows(plc)?;
         let representative = representatives(&plc.vertices);
         let given = given_segments(plc, &representative)?;
         let corners: usize = plc
@@ -107,6 +108,36 @@ fn check_points(plc: &Plc) -> Result<(), PlcError> {
     ] {
         if let Some(index) = points.iter().position(infinite) {
             return Err(PlcError::PointNotFinite { kind, index });
+        }
+    }
+    Ok(())
+}
+
+/// Attributes, markers and numbers, if there are any, are those of the vertices.
+fn check_rows(plc: &Plc) -> Result<(), PlcError> {
+    let vertices = plc.vertices.len();
+    let columns = plc.attributes.per_vertex;
+    let full = columns.checked_mul(vertices) == Some(plc.attributes.values.len());
+    let attributes = plc.attributes.values.len() / columns.max(1);
+    for (what, rows, right) in [
+        ("rows of attributes", attributes, full),
+        (
+            "markers of vertices",
+            plc.vertex_markers.len(),
+            plc.vertex_markers.is_empty() || plc.vertex_markers.len() == vertices,
+        ),
+        (
+            "numbers of vertices",
+            plc.numbers.len(),
+            plc.numbers.is_empty() || plc.numbers.len() == vertices,
+        ),
+    ] {
+        if !right {
+            return Err(PlcError::RowCount {
+                what,
+                rows,
+                vertices,
+            });
         }
     }
     Ok(())

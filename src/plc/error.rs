@@ -112,6 +112,16 @@ pub enum PlcError {
         /// Its index in its list, from 0.
         index: usize,
     },
+    /// A table of vertices has not as many rows as there are vertices.
+    #[error("there are {vertices} vertices, but {rows} {what}")]
+    RowCount {
+        /// What the rows are.
+        what: &'static str,
+        /// How many rows there are.
+        rows: usize,
+        /// How many vertices there are.
+        vertices: usize,
+    },
     /// A corner is not in the list of vertices.
     #[error("{facet} refers to vertex {vertex}, which does not exist")]
     NoSuchVertex {
@@ -251,6 +261,7 @@ impl PlcError {
         match self {
             PlcError::VertexNotFinite { .. }
             | PlcError::PointNotFinite { .. }
+            | PlcError::RowCount { .. }
             | PlcError::NoSuchSegmentEnd { .. }
             | PlcError::DegenerateSegment { .. } => Vec::new(),
             PlcError::NoSuchVertex { facet, .. }

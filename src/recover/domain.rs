@@ -1,16 +1,8 @@
-//! Inside and outside (paper §2: the polyhedra of the PLC): which tetrahedra are kept, and the region of each.
-//!
-//! The subpolygons divide the tetrahedra into components. Those connected to the ghosts are outside; those that hold a
-//! hole point are holes; the rest is the domain. A region point gives its attribute to its component.
+//! Inside and outside (paper §2: the polyhedra of the PLC): the parts into which the polygons divide space, and which
+//! tetrahedra are kept of them. What is decided by which part is in [`crate::cdt`].
 
-use crate::error::InvalidPlc;
-use crate::exchange::Plc;
-use crate::mesh::{Incidence, SimplexIndex, TetId, TetMesh};
+use crate::mesh::{Incidence, SimplexIndex, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
-use crate::threads;
-
-/// Fewer tetrahedra are one thread's work.
-const FEW: usize = 1 << 16;
 
 /// Which tetrahedra are in the domain, and their region attributes.
 #[derive(Clone, Debug, Default)]
@@ -21,82 +13,55 @@ pub struct DomainMarks {
     pub region: Vec<f64>,
 }
 
-/// Divides the mesh at `walls`, the subpolygons. With `keep_hull` everything in the convex hull is kept. Linear time.
-///
-/// # Errors
-/// If a hole point or region point lies on a facet, or two region points disagree on one region.
-pub(crate) fn mark_domain<P: PointStore>(
-    plc: &Plc,
-    points: &P,
-    mesh: &TetMesh,
-    walls: &SimplexIndex<2>,
-    keep_hull: bool,
-) -> Result<DomainMarks, InvalidPlc> {
-    let mut flood = Flood {
-        mesh,
-        walls,
-        component: vec![u32::MAX; mesh.capacity()],
-    };
-    let mut kept_component = vec![keep_hull];
-    if walls.is_empty() {
-        // Nothing divides them.
-        mesh.all().for_each(|t| flood.component[t.index()] = 0);
-    } else {
-        flood.fill(mesh.all().filter(|&t| mesh.is_ghost(t)).collect(), 0);
-    }
-    for t in mesh.finite() {
-        if flood.component[t.index()] == u32::MAX {
-            let id = kept_component.len() as u32;
-            kept_component.push(true);
-            flood.fill(vec![t], id);
+/// The components of the tetrahedra, ghosts included, where those are neighbours that no wall divides.
+#[derive(Clone, Debug)]
+pub struct Components {
+    of: Vec<u32>,
+    count: usize,
+}
+
+impl Components {
+    /// The component of all ghosts, which is what no wall encloses.
+    pub const OUTSIDE: u32 = 0;
+
+    /// Divides the mesh at `walls`, the subpolygons. Linear time.
+    pub(crate) fn new(mesh: &TetMesh, walls: &SimplexIndex<2>) -> Components {
+        let mut flood = Flood {
+            mesh,
+            walls,
+            component: vec![u32::MAX; mesh.capacity()],
+        };
+        if walls.is_empty() {
+            // Nothing divides them.
+            mesh.all()
+                .for_each(|t| flood.component[t.index()] = Components::OUTSIDE);
+        } else {
+            let ghosts = mesh.all().filter(|&t| mesh.is_ghost(t)).collect();
+            flood.fill(ghosts, Components::OUTSIDE);
         }
-    }
-    let component = flood.component;
-    let mut near = mesh.finite().next();
-    let mut find = |kind, index, point| {
-        locate(points, mesh, walls, &mut near, point)
-            .map_err(|OnPolygon| InvalidPlc::PointOnPolygon { kind, index })
-    };
-    let holes: &[[f64; 3]] = if keep_hull { &[] } else { &plc.holes };
-    for (index, &hole) in holes.iter().enumerate() {
-        if let Some(t) = find("hole", index, hole)? {
-            kept_component[component[t.index()] as usize] = false;
-        }
-    }
-    let mut named_by: Vec<Option<usize>> = vec![None; kept_component.len()];
-    for (index, region) in plc.regions.iter().enumerate() {
-        if let Some(t) = find("region", index, region.point)? {
-            let first = *named_by[component[t.index()] as usize].get_or_insert(index);
-            if plc.regions[first].attribute != region.attribute {
-                let points = [first, index];
-                return Err(InvalidPlc::RegionsDisagree { points });
+        let mut count = 1;
+        for t in mesh.finite() {
+            if flood.component[t.index()] == u32::MAX {
+                flood.fill(vec![t], count);
+                count += 1;
             }
         }
+        Components {
+            of: flood.component,
+            count: count as usize,
+        }
     }
-    let attribute: Vec<Option<f64>> = named_by
-        .into_iter()
-        .map(|index| Some(plc.regions[index?].attribute))
-        .collect();
-    let of = |t: usize| component[t] as usize;
-    let alive = |t: usize| component[t] != u32::MAX;
-    Ok(DomainMarks {
-        kept: threads::map(component.len(), FEW, |t| {
-            alive(t) && kept_component[of(t)] && !mesh.is_ghost(TetId::new(t))
-        }),
-        region: if plc.regions.is_empty() {
-            Vec::new()
-        } else {
-            (0..component.len())
-                .map(|t| {
-                    if alive(t) {
-                        attribute[of(t)].unwrap_or(0.0)
-                    } else {
-                        0.0
-                    }
-                })
-                .collect()
-        },
-    })
+
+    /// How many there are, the outside included.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The component of a tetrahedron, if the id is that of one.
+    pub fn of(&self, t: TetId) -> Option<u32> {
+        let component = self.of[t.index()];
+        (component != u32::MAX).then_some(component)
+    }
 }
 
 struct Flood<'a> {
@@ -127,15 +92,16 @@ impl Flood<'_> {
 }
 
 /// The point lies on a polygon, so it names no part of space.
-struct OnPolygon;
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct OnPolygon;
 
 /// The most steps of a walk.
 const MOST_STEPS: usize = 1000;
 
-/// A finite tetrahedron that contains the point, if it is in the convex hull. A walk from `near`, which need not end in a
-/// constrained tetrahedralization. If it does not, or if the point is in no interior, a walk from the first tetrahedron, then
-/// a search of all.
-fn locate<P: PointStore>(
+/// A finite tetrahedron that contains the point, if it is in the convex hull. A walk from `near`, which need not end
+/// in a constrained tetrahedralization. If it does not, or if the point is in no interior, a walk from the first
+/// tetrahedron, then a search of all.
+pub(crate) fn locate<P: PointStore>(
     points: &P,
     mesh: &TetMesh,
     walls: &SimplexIndex<2>,
@@ -185,8 +151,8 @@ pub fn keeps_edge(
     mesh: &TetMesh,
     incidence: &Incidence,
     marks: &DomainMarks,
-    a: crate::mesh::VertexId,
-    b: crate::mesh::VertexId,
+    a: VertexId,
+    b: VertexId,
 ) -> bool {
     incidence
         .tet_at_edge(mesh, a, b)

@@ -7,7 +7,7 @@ use crate::common::families::{
 use crate::common::{box_facets, plc_of_points, quiet, sorted_tets};
 use proptest::prelude::*;
 use tetflip::cdt::Cdt;
-use tetflip::error::{DeletionRefused, Failure};
+use tetflip::error::{DeletionRefused, DomainError, Failure};
 use tetflip::exchange::{Plc, Segment};
 use tetflip::mesh::{TetMesh, VertexId};
 use tetflip::predicate::PointStore;
@@ -515,25 +515,38 @@ fn a_triangle_holds_a_polygon_in_place() {
     }
 }
 
-/// Two rooms with a wall between them; without an outer wall of one the other is what is left.
+/// Two rooms with a wall between them. Without an outer wall of one room the surface is open; without all of them the other
+/// room is what is left.
 #[test]
 fn a_deleted_polygon_bounds_nothing() {
     let mut plc = Plc::default();
     box_facets(&mut plc, [2, 1, 1], 1.0, &[true; 36]);
-    let outer = |facet: &tetflip::exchange::Facet| {
-        let corners = facet.polygons[0].iter();
-        corners
-            .map(|v| plc.vertices[v.index()][0])
-            .all(|x| x == 2.0)
-    };
-    let outer = plc.facets.iter().position(outer).expect("a wall at x = 2");
+    let at_2 = |v: &VertexId| plc.vertices[v.index()][0] == 2.0;
+    let corners = |facet: usize| plc.facets[facet].polygons[0].iter();
+    let (outer, mut of_room): (Vec<usize>, Vec<usize>) = (0..plc.facets.len())
+        .filter(|&f| corners(f).any(at_2))
+        .partition(|&f| corners(f).all(at_2));
+    assert_eq!((outer.len(), of_room.len()), (1, 4));
     let mut report = Report::default();
     let mut cdt = Cdt::with_segments(&plc, true, &mut report).expect("a valid PLC");
     cdt.insert_polygons(FLIPS, &mut report, &mut quiet)
         .expect("a valid PLC");
     let closed = cdt.export(&plc, false, &mut report).expect("two rooms");
-    let f = cdt.polygon_of_facet(outer).expect("the wall has an area");
-    cdt.delete_polygon(f).expect("a flat polygon");
+    let delete = |cdt: &mut Cdt, facet: usize| {
+        let f = cdt.polygon_of_facet(facet).expect("the wall has an area");
+        cdt.delete_polygon(f).expect("a flat polygon");
+        f
+    };
+    let mut deleted = vec![delete(&mut cdt, outer[0])];
+    let rest = plc_of_inserted(&plc, &cdt);
+    match cdt.export(&rest, false, &mut report) {
+        Err(Failure::Domain(DomainError::Open { edges })) => {
+            assert_eq!(edges.len(), 4);
+            assert!(edges.iter().flatten().all(at_2));
+        }
+        other => panic!("an open surface: {other:?}"),
+    }
+    deleted.extend(of_room.drain(..).map(|f| delete(&mut cdt, f)));
     let rest = plc_of_inserted(&plc, &cdt);
     let open = cdt.export(&rest, false, &mut report).expect("one room");
     let options = VerifyOptions {
@@ -543,7 +556,9 @@ fn a_deleted_polygon_bounds_nothing() {
     let verdict = verify(&rest, &open, options);
     assert!(verdict.is_ok(), "{verdict}");
     assert_eq!(verdict.counts.volume, 1.0);
-    insert(&mut cdt, f, FLIPS).expect("as before");
+    for f in deleted {
+        insert(&mut cdt, f, FLIPS).expect("as before");
+    }
     assert_eq!(cdt.export(&plc, false, &mut report), Ok(closed));
 }
 

@@ -6,8 +6,8 @@ use crate::common::quiet;
 use proptest::prelude::*;
 use tetflip::cdt::{Cdt, Options, tetrahedralize};
 use tetflip::error::Failure;
-use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::Plc;
+use tetflip::exchange::{ExportedMesh, FaceTable};
 use tetflip::format::{read_mesh, write_mesh};
 use tetflip::predicate::{DoublePoints, PointStore, Steiner};
 use tetflip::recover::polygons::{FlipOrder, Insertion};
@@ -214,6 +214,12 @@ fn positions_are_written_and_read() {
     let written = write_mesh(&path, &mesh).unwrap();
     assert!(written.contains(&path.with_extension("steiner")));
     let read = read_mesh(&path).unwrap();
+    // What is ours beside the files of TetGen is not read back.
+    let mesh = ExportedMesh {
+        face_table: FaceTable::default(),
+        region_numbers: Vec::new(),
+        ..mesh
+    };
     assert_eq!(read, mesh);
     assert!(verdict(&plc, &read).is_ok());
 

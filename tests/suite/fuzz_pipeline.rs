@@ -11,7 +11,7 @@ use std::sync::mpsc;
 use std::time::Duration;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::delaunay::delaunay;
-use tetflip::error::{Failure, GaveUp, InvalidPlc};
+use tetflip::error::{Failure, GaveUp};
 use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::{Facet, Plc, Region, Segment};
 use tetflip::mesh::VertexId;
@@ -46,8 +46,8 @@ fn config(cases: u32) -> ProptestConfig {
     }
 }
 
-/// What came of one insertion: a mesh, and whether it fills the hull.
-type Outcome = Result<(ExportedMesh, bool), Failure>;
+/// What came of one insertion.
+type Outcome = Result<ExportedMesh, Failure>;
 
 /// All insertions, on a thread of their own, so that an endless one fails the test.
 fn run_all(plc: &Plc, keep_hull: bool, merge_coplanar: bool) -> Vec<Outcome> {
@@ -63,7 +63,6 @@ fn run_all(plc: &Plc, keep_hull: bool, merge_coplanar: bool) -> Vec<Outcome> {
             };
             let mut report = Report::default();
             let outcome = tetrahedralize(&plc, &options, &mut report, &mut quiet);
-            let outcome = outcome.map(|mesh| (mesh, keep_hull || report.hull_instead));
             if let Err(failure) = &outcome {
                 // Messages are computed from the input's numbers; they must not fail either.
                 assert!(!failure.describe(&plc).is_empty());
@@ -104,8 +103,8 @@ fn accepted(plc: &Plc, mesh: &ExportedMesh, keep_hull: bool) -> Result<(), Strin
     }
 }
 
-/// What must hold for any input, with rounded Steiner points. (A mesh of an invalid input with features of a few ulps may be refused: to the verifier's
-/// tolerance such features are not there.) `valid`: the input is a PLC by construction.
+/// What must hold for any input, with rounded Steiner points. (A mesh of an invalid input with features of a few ulps may be
+/// refused: to the verifier's tolerance such features are not there.) `valid`: the input is a PLC by construction.
 fn check(plc: &Plc, keep_hull: bool, merge_coplanar: bool, valid: bool) {
     check_exactly(plc, keep_hull, merge_coplanar);
     let outcomes = run_all(plc, keep_hull, merge_coplanar);
@@ -118,8 +117,8 @@ fn check(plc: &Plc, keep_hull: bool, merge_coplanar: bool, valid: bool) {
     }
     for (insertion, outcome) in INSERTIONS.iter().zip(&outcomes) {
         match outcome {
-            Ok((mesh, hull)) => {
-                if let Err(why) = accepted(plc, mesh, *hull) {
+            Ok(mesh) => {
+                if let Err(why) = accepted(plc, mesh, keep_hull) {
                     assert!(
                         !valid && !is_coarse(plc),
                         "{insertion:?} made a mesh that is refused: {why}"
@@ -152,7 +151,7 @@ fn check_exactly(plc: &Plc, keep_hull: bool, merge_coplanar: bool) {
             };
             let mut report = Report::default();
             let outcome = tetrahedralize(&input, &options, &mut report, &mut quiet);
-            if send.send((outcome, report.hull_instead)).is_err() {
+            if send.send(outcome).is_err() {
                 return;
             }
         }
@@ -169,10 +168,10 @@ fn check_exactly(plc: &Plc, keep_hull: bool, merge_coplanar: bool) {
     }
     let findings = tetflip::check::check(plc, Some(4));
     match &outcomes[..] {
-        [(Ok(cavity), hull_instead), (Ok(flips), _)] => {
+        [Ok(cavity), Ok(flips)] => {
             assert_eq!(cavity, flips, "one mesh");
             assert!(findings.is_valid(), "a mesh of {findings:?}");
-            let domain = match keep_hull || *hull_instead {
+            let domain = match keep_hull {
                 true => Domain::Hull,
                 false => Domain::Inside,
             };
@@ -184,15 +183,11 @@ fn check_exactly(plc: &Plc, keep_hull: bool, merge_coplanar: bool) {
             let verdict = verify(plc, cavity, options);
             assert!(verdict.is_ok(), "{verdict}");
         }
-        [(Err(cavity), _), (Err(flips), _)] => {
+        [Err(cavity), Err(flips)] => {
             for failure in [cavity, flips] {
-                let about_points = matches!(
+                let no_intersection = matches!(
                     failure,
-                    Failure::Delaunay(_)
-                        | Failure::Invalid(
-                            InvalidPlc::PointOnPolygon { .. } | InvalidPlc::RegionsDisagree { .. }
-                        )
-                        | Failure::Plc(_)
+                    Failure::Delaunay(_) | Failure::Domain(_) | Failure::Plc(_)
                 );
                 // Edges that nearly overlap may need any number of Steiner points, and vertices nearer to a segment than
                 // 2^-106 of its length a place between parameters.
@@ -203,7 +198,7 @@ fn check_exactly(plc: &Plc, keep_hull: bool, merge_coplanar: bool) {
                     )
                 ) && !is_coarse(plc);
                 assert!(
-                    about_points || too_many || !findings.is_valid(),
+                    no_intersection || too_many || !findings.is_valid(),
                     "{failure} of a valid PLC"
                 );
             }

@@ -7,6 +7,7 @@ mod common;
 mod complex;
 mod delaunay;
 mod deletion;
+mod domains;
 mod exact_steiner;
 mod examples;
 mod fixtures;
@@ -19,6 +20,7 @@ mod mesh_files;
 mod meshes;
 mod not_flat;
 mod number_agreement;
+mod one_call;
 #[cfg(feature = "cli")]
 mod program;
 mod repair;

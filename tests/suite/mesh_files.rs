@@ -349,7 +349,7 @@ fn errors_name_file_line_and_reason() {
         assert_eq!(error_of("t.1.node", text).2, NotFinite { what: "y", found });
     }
     for (text, found) in [
-        ("1 1\n1 1 2 3000000000\n", "3000000000"),
+        ("1 1\n1 1 2 30000000000000000000\n", "30000000000000000000"),
         ("1 1\n1 1 2 0.5\n", "0.5"),
     ] {
         let found = found.to_string();
@@ -408,7 +408,10 @@ fn what_no_file_can_hold_is_not_written() {
         assert_eq!(errors[0], errors[1]);
         errors[0]
     };
-    assert_eq!(bad(|m| m.first_index = 2), UnwritableMesh::FirstIndex(2));
+    assert_eq!(
+        bad(|m| m.first_index = u32::MAX),
+        UnwritableMesh::FirstIndex(u32::MAX)
+    );
     assert_eq!(
         bad(|m| m.vertices[2][1] = f64::NAN),
         UnwritableMesh::Vertex(2)

@@ -196,7 +196,7 @@ fn shims(plc: &Plc, insertion: Insertion, keep_hull: bool) -> (ShimCounts, Vec<[
     };
     let mut report = Report::default();
     let mesh = tetrahedralize(plc, &options, &mut report, &mut quiet).expect("a valid PLC");
-    let domain = if keep_hull || report.hull_instead {
+    let domain = if keep_hull {
         Domain::Hull
     } else {
         Domain::Inside

@@ -10,7 +10,10 @@ pub fn word<T>(result: &Result<T, Failure>) -> &'static str {
     match result {
         Ok(_) => OK,
         Err(Failure::Delaunay(_)) => "flat-vertex-set",
-        Err(Failure::Plc(_) | Failure::Invalid(_) | Failure::NoSuchPolygon(_)) => "invalid-plc",
+        Err(
+            Failure::Plc(_) | Failure::Invalid(_) | Failure::NoSuchPolygon(_) | Failure::Stopped,
+        ) => "invalid-plc",
+        Err(Failure::Domain(_)) => "nothing-inside",
         Err(Failure::GaveUp(gave_up)) => match gave_up {
             GaveUp::SegmentTooShort { .. } => "segment-too-short",
             GaveUp::TooManySteinerPoints { .. } => "too-many-steiner-points",
@@ -22,7 +25,6 @@ pub fn word<T>(result: &Result<T, Failure>) -> &'static str {
             GaveUp::Inverted { .. } => "inverted",
             GaveUp::Displaced { .. } => "displaced",
             GaveUp::Endless { .. } => "endless",
-            GaveUp::NothingInside => "nothing-inside",
         },
     }
 }

@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use tetflip::cdt::{Options, tetrahedralize};
 use tetflip::check::check;
-use tetflip::error::{Failure, GaveUp};
+use tetflip::error::{DomainError, Failure, GaveUp};
 use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::Plc;
 use tetflip::format::{FormatError, read_plc};
@@ -316,7 +316,10 @@ fn failure_words(failure: &Failure) -> (&'static str, String) {
         Failure::Delaunay(error) => ("degenerate", variant(error)),
         Failure::Plc(error) => ("invalid", variant(error)),
         Failure::Invalid(error) => ("invalid", variant(error)),
-        Failure::GaveUp(error @ GaveUp::NothingInside) => ("open", variant(error)),
+        Failure::Domain(error @ (DomainError::Open { .. } | DomainError::NothingEnclosed)) => {
+            ("open", variant(error))
+        }
+        Failure::Domain(error) => ("invalid", variant(error)),
         Failure::GaveUp(GaveUp::NotFlat { reason, .. }) => {
             ("gave up", format!("NotFlat{}", variant(reason)))
         }
@@ -383,10 +386,10 @@ mod tests {
             failure_words(&failure),
             ("invalid", "VertexOnSegment".to_owned())
         );
-        let failure = Failure::from(GaveUp::NothingInside);
+        let failure = Failure::from(DomainError::NothingEnclosed);
         assert_eq!(
             failure_words(&failure),
-            ("open", "NothingInside".to_owned())
+            ("open", "NothingEnclosed".to_owned())
         );
         let failure = Failure::from(GaveUp::FlipOrder {
             facets: vec![1],

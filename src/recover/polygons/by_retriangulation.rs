@@ -132,8 +132,9 @@ mod tests {
             let mut points = DoublePoints::new(plc.vertices);
             let all: Vec<VertexId> = (0..points.len()).map(VertexId::new).collect();
             let mut delaunay = delaunay(&points, &all).expect("not on one plane");
-            let (subsegments, incidence) = recover_segments(&complex, &mut points, &mut delaunay)
-                .expect("few and far between");
+            let (subsegments, incidence) =
+                recover_segments(&complex, &mut points, &mut delaunay, &|_| true)
+                    .expect("few and far between");
             assert_eq!(points.len(), vertices.len(), "no Steiner point");
             Scene {
                 points,

@@ -12,7 +12,7 @@
 //! So they end with the fewer points of both, unless harmless places would have made up for a bad start. All of it depends
 //! on numbers of points only, hence is deterministic.
 
-use super::recovery::{MOST_VERTICES_PER_SEGMENT, Placement, Recovered, SegmentRecovery};
+use super::recovery::{GoOn, MOST_VERTICES_PER_SEGMENT, Placement, Recovered, SegmentRecovery};
 use crate::error::{Failure, GaveUp};
 use crate::mesh::VertexId;
 use crate::predicate::GrowingStore;
@@ -31,12 +31,15 @@ pub(super) fn recover_thriftily<P: GrowingStore + Clone>(
     points: &mut P,
     start: Recovered,
     missing: &[[VertexId; 2]],
+    go_on: &GoOn<'_>,
 ) -> Result<Recovered, Failure> {
     let mut copy = points.clone();
     let mut race = Race {
         rules: SegmentRecovery::new(&mut copy, start.clone(), Placement::ByRules),
         harmless: SegmentRecovery::new(points, start, Placement::Harmless),
     };
+    race.rules.go_on = Some(go_on);
+    race.harmless.go_on = Some(go_on);
     race.rules.enqueue_all(missing);
     race.harmless.enqueue_all(missing);
     Ok(match race.run()? {
@@ -181,7 +184,7 @@ mod tests {
                 recovery.bound()
             };
             let both = [Placement::ByRules, Placement::Harmless].map(alone);
-            let end = recover_thriftily(&mut points.clone(), start.clone(), &missing);
+            let end = recover_thriftily(&mut points.clone(), start.clone(), &missing, &|_| true);
             let end = end.expect("rods do not touch");
             let count = end.subsegments.steiner_count();
             assert!(

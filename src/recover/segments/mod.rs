@@ -35,7 +35,7 @@ use crate::mesh::{Incidence, VertexId};
 use crate::plc::Complex;
 use crate::predicate::GrowingStore;
 use best_of_two::recover_thriftily;
-pub use recovery::Changes;
+pub use recovery::{Changes, GoOn};
 use recovery::{Placement, Recovered, SegmentRecovery};
 pub use segment_index::SegmentIndex;
 pub(super) use split::sight;
@@ -43,14 +43,18 @@ use straight_walk::{Scouted, scout};
 pub use subsegments::Subsegments;
 
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
+/// `go_on` is told, again and again, how many will be needed at least.
 ///
 /// # Errors
-/// [`InvalidPlc`](crate::error::InvalidPlc) where a vertex lies on a segment; [`SegmentTooShort`](crate::error::GaveUp::SegmentTooShort) where a segment cannot be divided any
-/// more in the store's coordinates, as happens where segments or facets intersect. The tetrahedralization may then be gone.
+/// [`InvalidPlc`](crate::error::InvalidPlc) where a vertex lies on a segment;
+/// [`SegmentTooShort`](crate::error::GaveUp::SegmentTooShort) where a segment cannot be divided any more in the store's
+/// coordinates, as happens where segments or facets intersect; [`Failure::Stopped`] if `go_on` says so. The
+/// tetrahedralization may then be gone.
 pub fn recover_segments<P: GrowingStore + Clone>(
     complex: &Complex,
     points: &mut P,
     delaunay: &mut Delaunay,
+    go_on: &GoOn<'_>,
 ) -> Result<(Subsegments, Incidence), Failure> {
     let first = points.len();
     let subsegments = Subsegments::new(complex, SegmentIndex::new(complex), first);
@@ -68,7 +72,7 @@ pub fn recover_segments<P: GrowingStore + Clone>(
         incidence,
         subsegments,
     };
-    let recovered = recover_thriftily(points, start, &missing)?;
+    let recovered = recover_thriftily(points, start, &missing, go_on)?;
     points.truncate(first);
     recovered.subsegments.push_all(points);
     let recovered = recovered.pruned(points);

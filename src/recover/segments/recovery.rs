@@ -90,7 +90,12 @@ pub(super) struct SegmentRecovery<'a, P> {
     zone: Stamps,
     /// What has changed, if that is of interest.
     pub(super) changes: Option<Changes>,
+    /// Who is told how many Steiner points will be needed at least, and says whether to go on.
+    pub(super) go_on: Option<&'a GoOn<'a>>,
 }
+
+/// Somebody who is told how many Steiner points will be needed at least, and says whether to go on.
+pub type GoOn<'a> = dyn Fn(usize) -> bool + 'a;
 
 impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
     pub(super) fn new(
@@ -112,6 +117,7 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
             lost: Vec::new(),
             zone: Stamps::default(),
             changes: None,
+            go_on: None,
         }
     }
 
@@ -137,6 +143,9 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
         while self.longest().is_some_and(|longest| longest >= length) {
             if self.bound() > most {
                 return Ok(false);
+            }
+            if self.go_on.is_some_and(|go_on| !go_on(self.bound())) {
+                return Err(Failure::Stopped);
             }
             let missing = self.missing.pop().expect("there is a longest one");
             let (_, [a, b]) = missing.parts();

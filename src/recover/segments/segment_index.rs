@@ -45,7 +45,7 @@ impl SegmentIndex {
     }
 
     #[inline]
-    pub(super) fn find(&self, a: VertexId, b: VertexId) -> Option<u32> {
+    pub(crate) fn find(&self, a: VertexId, b: VertexId) -> Option<u32> {
         let [low, high] = key(a, b);
         let Pairs { starts, list } = &*self.0;
         let (&start, &end) = (starts.get(low.index())?, starts.get(low.index() + 1)?);

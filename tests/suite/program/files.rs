@@ -53,8 +53,8 @@ fn names_in_capitals_are_the_same_formats() {
     place.run("verify A.POLY X.ELE").ends_with(0);
     place.run("mesh A.POLY -o z.Node").ends_with(0);
     let all = [
-        "A.POLY", "X.EDGE", "X.ELE", "X.FACE", "X.NODE", "Y.VTU", "z.edge", "z.ele", "z.face",
-        "z.node",
+        "A.POLY", "X.EDGE", "X.ELE", "X.FACE", "X.FACETS", "X.NODE", "Y.VTU", "z.edge", "z.ele",
+        "z.face", "z.facets", "z.node",
     ];
     assert_eq!(place.names(), all);
     assert_eq!(place.bytes("X.ELE"), place.bytes("z.ele"));

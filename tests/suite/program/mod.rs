@@ -6,6 +6,7 @@ mod documents;
 mod files;
 mod generate;
 mod input;
+mod outputs;
 mod place;
 mod recorded;
 mod refusals;
@@ -39,7 +40,7 @@ fn a_cube_in_every_format_is_meshed_and_verified() {
         assert!(run.stdout().ends_with("\naccepted\n"), "{}", run.stdout());
     }
     let all = [
-        "a.poly", "b.off", "c.stl", "x.edge", "x.ele", "x.face", "x.node",
+        "a.poly", "b.off", "c.stl", "x.edge", "x.ele", "x.face", "x.facets", "x.node",
     ];
     assert_eq!(place.names(), all);
 }
@@ -123,7 +124,7 @@ fn any_of_the_four_names_writes_all_four_and_vtu_writes_one() {
         place.run(&format!("mesh a.poly -o x.{name}")).ends_with(0);
         assert_eq!(
             place.names(),
-            ["a.poly", "x.edge", "x.ele", "x.face", "x.node"]
+            ["a.poly", "x.edge", "x.ele", "x.face", "x.facets", "x.node"]
         );
         place.run(&format!("verify a.poly x.{name}")).ends_with(0);
     }

@@ -6,17 +6,32 @@ use std::fmt::Write;
 use std::process::Command;
 
 #[test]
-fn an_open_surface_keeps_its_hull() {
+fn an_open_surface_is_refused_with_its_edges() {
     let place = Place::with(&[("open.off", &off(5))]);
-    let run = place
-        .run("mesh open.off -o x.node --verify --quiet")
-        .ends_with(0);
-    assert!(run.stderr().contains("the convex hull is kept"));
-    place.run("verify open.off x.node").ends_with(0);
+    // The missing face is 1 3 7 5.
+    let edges = [
+        "4 edges",
+        "1-3, 1-5, 3-7, 5-7",
+        "--hull",
+        "check open.off -o",
+    ];
+    place.refuses("mesh open.off -o x.node --quiet", 2, &edges);
     place
         .run("mesh open.off -o y.node --hull --verify")
         .ends_with(0);
-    assert_eq!(place.bytes("x.ele"), place.bytes("y.ele"));
+    place
+        .run("verify open.off y.node --domain hull")
+        .ends_with(0);
+    place.run("check open.off -o bad.vtu").ends_with(0);
+    let picture = String::from_utf8(place.bytes("bad.vtu")).expect("UTF-8");
+    assert!(picture.contains(r#"NumberOfCells="4""#), "{picture}");
+}
+
+#[test]
+fn nothing_but_vertices_encloses_nothing() {
+    let place = Place::with(&[("p.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n")]);
+    place.refuses("mesh p.node -o x.node", 2, &["enclose nothing", "--hull"]);
+    place.run("mesh p.node -o x.node --hull").ends_with(0);
 }
 
 #[test]
@@ -166,13 +181,13 @@ fn intersections_are_refused_by_name() {
             2,
             &["edges", "facet 0 (0 3 2 1)", "cross"],
         );
+        place.refuses(&mesh("wires.poly"), 2, &["edge 1-2", "edge 3-4", "cross"]);
         place.refuses(
-            &mesh("wires.poly"),
+            &mesh("touch.poly"),
             2,
-            &["segments", "1-2", "3-4", "intersect"],
+            &["inside facet 6 (2 4 8 6), which does not have it"],
         );
-        place.refuses(&mesh("touch.poly"), 2, &["interior of facet 6 (2 4 8 6)"]);
-        place.refuses(&mesh("edge.poly"), 2, &["lies in the interior of segment"]);
+        place.refuses(&mesh("edge.poly"), 2, &["lies on edge"]);
         place.refuses(
             &mesh("twice.poly"),
             2,
