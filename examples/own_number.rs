@@ -1,5 +1,6 @@
-//! Inserts polygons by flips over two number types that this file defines, and compares them with the exact order: fractions
-//! of 128-bit integers, exact as long as they fit; and floats that keep track of their error, which do not know everything.
+//! Inserts polygons by flips over two number types that this file defines, and compares them with the exact order:
+//! fractions of 128-bit integers, exact as long as they fit; and floats that keep track of their error, which do not
+//! know everything.
 
 use std::cmp::Ordering;
 use std::error::Error;
@@ -12,7 +13,8 @@ use tetflip::recover::flips::{Evaluation, ExactNumbers, FlipNumbers, RoundedNumb
 use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 
-/// An integer number of sixteenths, squares of sixteenths, …: m·16^(−k). Exact for small coordinates with few binary places.
+/// An integer number of sixteenths, squares of sixteenths, …: m·16^(−k). Exact for small coordinates with few binary
+/// places.
 #[derive(Clone, Debug)]
 struct Sixteenths {
     m: i128,

@@ -20,8 +20,8 @@
 //! `delaunay` and `recover` build on all three.
 //!
 //! Every sign that decides anything is exact, for all finite doubles. The library neither panics on user input nor
-//! prints: bad input and an algorithm that gave up are values ([`error::Failure`]); counts, seconds and notes are a struct
-//! ([`report::Report`]).
+//! prints: bad input and an algorithm that gave up are values ([`error::Failure`]); counts, seconds and notes are a
+//! struct ([`report::Report`]).
 //!
 //! Work on many vertices, tetrahedra or lines is shared by all threads of the current [`rayon`] pool. The results do
 //! not depend on their number.

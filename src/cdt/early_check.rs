@@ -1,9 +1,9 @@
-//! The check of the input beside a run that takes long: where parts of the input intersect, more and more Steiner points
-//! are inserted between them, and most of the time would be spent on what fails in the end.
+//! The check of the input beside a run that takes long: where parts of the input intersect, more and more Steiner
+//! points are inserted between them, and most of the time would be spent on what fails in the end.
 //!
-//! Checking takes about as long as meshing a surface that needs no Steiner points. So it begins only when many are needed, on
-//! another thread if there is one, and the run ends as soon as the input is known to be invalid. A valid input is not held
-//! up, and what comes of it does not depend on any of this.
+//! Checking takes about as long as meshing a surface that needs no Steiner points. So it begins only when many are
+//! needed, on another thread if there is one, and the run ends as soon as the input is known to be invalid. A valid
+//! input is not held up, and what comes of it does not depend on any of this.
 
 use crate::check::{Findings, check};
 use crate::exchange::Plc;

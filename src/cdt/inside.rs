@@ -2,9 +2,9 @@
 //!
 //! # Open edges
 //! A segment is *open* if exactly one polygon is on exactly one side of it: the edges in the mesh that it consists of
-//! have one triangle on polygons each, as the polygons meet like those of a PLC (`recover::output::embedding`). One goes
-//! around such an edge from one side of that triangle to its other side without crossing a polygon, so all tetrahedra
-//! there, and both sides of the polygon, are in *one* component. That is the definition:
+//! have one triangle on polygons each, as the polygons meet like those of a PLC (`recover::output::embedding`). One
+//! goes around such an edge from one side of that triangle to its other side without crossing a polygon, so all
+//! tetrahedra there, and both sides of the polygon, are in *one* component. That is the definition:
 //!
 //! - an open edge is *outside* if the tetrahedra around it are in the component of the ghosts. Then a facet ends
 //!   there that has the outside on both sides: what it was meant to enclose leaks, or it is a fin of the outer

@@ -108,8 +108,8 @@ impl Cdt<DoublePoints> {
         Cdt::begin_watched(plc, options, report, &|_| true, false)
     }
 
-    /// [`Cdt::begin`], with somebody who is told how many Steiner points will be needed at least, and may stop the run. If the
-    /// polygons `must_enclose` something, and it is clear that they do not, no Steiner points are searched for.
+    /// [`Cdt::begin`], with somebody who is told how many Steiner points will be needed at least, and may stop the run.
+    /// If the polygons `must_enclose` something, and it is clear that they do not, no Steiner points are searched for.
     fn begin_watched(
         plc: &Plc,
         options: &Options,

@@ -1,9 +1,9 @@
 //! Where a complex is open, and whether that alone shows that it encloses nothing.
 //!
-//! A polygon with an open edge has one and the same component of space on both sides (see [`super::inside`]). So without it
-//! the others divide space into the same components, and more edges may be open. Where nothing is left in the end, all of
-//! space is one component, the outside, and all edges that were open at first are open to it. This is known before there
-//! are any tetrahedra, in linear time.
+//! A polygon with an open edge has one and the same component of space on both sides (see [`super::inside`]). So
+//! without it the others divide space into the same components, and more edges may be open. Where nothing is left in
+//! the end, all of space is one component, the outside, and all edges that were open at first are open to it. This is
+//! known before there are any tetrahedra, in linear time.
 
 use crate::error::DomainError;
 use crate::mesh::VertexId;
@@ -42,7 +42,8 @@ pub(super) fn ends_of(complex: &Complex, s: usize) -> [VertexId; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The error of a complex whose polygons enclose nothing, wherever their vertices are; `None` if they may enclose something.
+/// The error of a complex whose polygons enclose nothing, wherever their vertices are; `None` if they may enclose
+/// something.
 pub(super) fn encloses_nothing(complex: &Complex) -> Option<DomainError> {
     let index = SegmentIndex::new(complex);
     let mut sides = sides(complex, &index, |_| true);

@@ -1,10 +1,11 @@
-//! Many rows of a text file, read by all threads: the file is cut at line ends, and the rows in the pieces are read at once.
+//! Many rows of a text file, read by all threads: the file is cut at line ends, and the rows in the pieces are read at
+//! once.
 //!
-//! Each format has one function that reads a row, and a loop that calls it for one row after the other. Before the loop,
-//! [`read_ahead`] lets threads call it for whole pieces, as if each began with a row, and takes what they read in the order
-//! of the file, as long as every piece began where the one before it had ended cleanly. It stops before the first piece in which
-//! anything is wrong, or with which there would not be too few rows, and the loop goes on from there. So rows and errors, with
-//! their lines, are those of the loop alone, whatever the number of threads.
+//! Each format has one function that reads a row, and a loop that calls it for one row after the other. Before the
+//! loop, [`read_ahead`] lets threads call it for whole pieces, as if each began with a row, and takes what they read in
+//! the order of the file, as long as every piece began where the one before it had ended cleanly. It stops before the
+//! first piece in which anything is wrong, or with which there would not be too few rows, and the loop goes on from
+//! there. So rows and errors, with their lines, are those of the loop alone, whatever the number of threads.
 
 use super::text::Text;
 use rayon::prelude::*;
@@ -29,7 +30,8 @@ pub(super) trait Rows: Send {
     /// How many there are.
     fn len(&self) -> u64;
 
-    /// Appends those of the piece of the file that follows. If they are not what could follow, it says so, and appends nothing.
+    /// Appends those of the piece of the file that follows. If they are not what could follow, it says so, and appends
+    /// nothing.
     fn append(&mut self, next: Self) -> bool;
 }
 
@@ -48,8 +50,8 @@ impl<T: Send> Rows for Vec<T> {
     }
 }
 
-/// Reads rows, each of which begins with a word on a new line: some of them, fewer than there are if there are `count`. Returns
-/// the line in which the last of them ends, or 0 if there is none.
+/// Reads rows, each of which begins with a word on a new line: some of them, fewer than there are if there are `count`.
+/// Returns the line in which the last of them ends, or 0 if there is none.
 pub(super) fn read_ahead<'a, R: Rows, E>(
     text: &mut Text<'a>,
     count: u64,
@@ -59,8 +61,8 @@ pub(super) fn read_ahead<'a, R: Rows, E>(
     read_aligned(text, count, rows, read, |_| 0)
 }
 
-/// The same where rows may be longer than a line: `align` guesses how many bytes after the beginning of a line the next row
-/// begins.
+/// The same where rows may be longer than a line: `align` guesses how many bytes after the beginning of a line the next
+/// row begins.
 pub(super) fn read_aligned<'a, R: Rows, E>(
     text: &mut Text<'a>,
     count: u64,

@@ -1,10 +1,10 @@
 //! Medit's ASCII files, `.mesh` (Frey, *MEDIT: An interactive mesh visualization software*, INRIA RT-0253, 2001).
 //!
-//! Read are `Vertices`, `Triangles`, `Quadrilaterals` and `Edges`; the references of the last three become markers. What
-//! says nothing about the shape (corners, ridges, normals, …) is skipped by its number of words, each of which must be a
-//! number. The tetrahedra and other solids of a volume mesh are skipped, too, if its surface is in the file; else the
-//! file is refused. Words are separated by any blanks; vertices count from 1. The word `End` must be there, so that a
-//! file that was cut is noticed. The binary variant, `.meshb`, is refused.
+//! Read are `Vertices`, `Triangles`, `Quadrilaterals` and `Edges`; the references of the last three become markers.
+//! What says nothing about the shape (corners, ridges, normals, …) is skipped by its number of words, each of which
+//! must be a number. The tetrahedra and other solids of a volume mesh are skipped, too, if its surface is in the file;
+//! else the file is refused. Words are separated by any blanks; vertices count from 1. The word `End` must be there, so
+//! that a file that was cut is noticed. The binary variant, `.meshb`, is refused.
 
 use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Place, Reason};

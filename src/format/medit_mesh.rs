@@ -3,7 +3,8 @@
 //!
 //! Read are `Vertices`, `Tetrahedra`, `Triangles` and `Edges` with their references, which are the markers of faces and
 //! edges and the attributes of regions. Other sections are skipped up to the next word that is no number. What the file
-//! says is not judged. Vertices count from 1. Time and memory are linear in the size of the file, whatever it announces.
+//! says is not judged. Vertices count from 1. Time and memory are linear in the size of the file, whatever it
+//! announces.
 
 use super::MeshLineError;
 use super::text::Text;

@@ -2,12 +2,12 @@
 //!
 //! Read are vertices `v x y z` (a weight or a colour after them is checked to be numbers and ignored), faces
 //! `f`, whose corners may be `v`, `v/vt`, `v//vn` or `v/vt/vn` and count from 1, or backwards from the last vertex if
-//! negative, and polylines `l`, which become segments. Points `p` are vertices anyway. Groups, materials, normals, texture
-//! coordinates and whatever words programs have added are skipped; curves and surfaces are refused, since to skip
-//! them would lose geometry. A line that ends with a backslash goes on in the next.
+//! negative, and polylines `l`, which become segments. Points `p` are vertices anyway. Groups, materials, normals,
+//! texture coordinates and whatever words programs have added are skipped; curves and surfaces are refused, since to
+//! skip them would lose geometry. A line that ends with a backslash goes on in the next.
 //!
-//! Why not the crate `tobj` (4.0): its errors have no place, it joins objects and splits vertices by material and normal,
-//! and it does not know continued lines.
+//! Why not the crate `tobj` (4.0): its errors have no place, it joins objects and splits vertices by material and
+//! normal, and it does not know continued lines.
 
 use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Place, Reason};

@@ -1,8 +1,8 @@
 //! OFF files (Geomview manual, section "OFF files").
 //!
-//! `OFF` with any of the prefixes ST, C, N (whose texture coordinates, colours and normals are ignored), or no header at
-//! all; then the numbers of vertices and faces and possibly of edges; one line per vertex, one per face. What follows the
-//! three coordinates or the corners in a line are colours, and ignored. Vertices count from 0.
+//! `OFF` with any of the prefixes ST, C, N (whose texture coordinates, colours and normals are ignored), or no header
+//! at all; then the numbers of vertices and faces and possibly of edges; one line per vertex, one per face. What
+//! follows the three coordinates or the corners in a line are colours, and ignored. Vertices count from 0.
 //!
 //! The dimension of `nOFF` stands before the counts, and must be 3; `4OFF` is refused. After `OFF BINARY` see
 //! [`super::off_binary`].

@@ -1,6 +1,6 @@
-//! Binary OFF files (Geomview manual, section "OFF files"): after the line `OFF BINARY`, the numbers of vertices, faces and
-//! edges; per vertex three singles, and those of its normal, colour and texture coordinates if the header announces them;
-//! per face the number of its corners, the corners, the number of its colour components, and those.
+//! Binary OFF files (Geomview manual, section "OFF files"): after the line `OFF BINARY`, the numbers of vertices, faces
+//! and edges; per vertex three singles, and those of its normal, colour and texture coordinates if the header announces
+//! them; per face the number of its corners, the corners, the number of its colour components, and those.
 //!
 //! The manual asks for big-endian numbers. Files in the wild are little-endian and have no colour components, not even
 //! their number. So there are four layouts; the first one that reads the file to its last byte is taken, the manual's
@@ -12,7 +12,8 @@ use super::error::{FormatError, Place, Reason};
 use crate::exchange::{Facet, Plc};
 use crate::mesh::VertexId;
 
-/// Reads what follows the line of the header, which ends at offset `at`. `extra` bytes follow the coordinates of each vertex.
+/// Reads what follows the line of the header, which ends at offset `at`. `extra` bytes follow the coordinates of each
+/// vertex.
 pub(super) fn read_binary(bytes: &[u8], at: usize, extra: u64) -> Result<Plc, FormatError> {
     let layouts = [(true, true), (true, false), (false, true), (false, false)];
     let mut best: Option<FormatError> = None;

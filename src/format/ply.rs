@@ -1,13 +1,14 @@
 //! PLY files (Turk, *The PLY Polygon File Format*, 1994): ASCII, and binary of both byte orders.
 //!
-//! Read are the coordinates `x y z` of the element `vertex` (of any type), the list `vertex_indices` or `vertex_index` of
-//! `face`, and `vertex1 vertex2` of `edge`, which become segments; other properties and elements are skipped. Binary
-//! singles are widened exactly. In an ASCII file the digits count, not the declared type: `0.1` is the double nearest to
+//! Read are the coordinates `x y z` of the element `vertex` (of any type), the list `vertex_indices` or `vertex_index`
+//! of `face`, and `vertex1 vertex2` of `edge`, which become segments; other properties and elements are skipped. Binary
+//! singles are widened exactly. In an ASCII file the digits count, not the declared type: `0.1` is the double nearest
+//! to
 //! 0.1 even where the header says `float`. Vertices count from 0.
 //!
-//! Why not the crate `ply-rs-bw` (4.0): it rounds `float` in ASCII files to singles, stores one element after the other for
-//! any number of elements without properties (a header of 80 bytes fills the memory), does not notice bytes that are left
-//! over, and gives up the places of values, which are needed to say where an index is out of range.
+//! Why not the crate `ply-rs-bw` (4.0): it rounds `float` in ASCII files to singles, stores one element after the other
+//! for any number of elements without properties (a header of 80 bytes fills the memory), does not notice bytes that
+//! are left over, and gives up the places of values, which are needed to say where an index is out of range.
 
 use super::ahead::{Rows, read_ahead};
 use super::bytes::Bytes;

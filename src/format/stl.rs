@@ -1,13 +1,13 @@
 //! STL files, ASCII and binary (3D Systems, *Stereolithography Interface Specification*, 1988).
 //!
-//! A file is binary iff its size is 84 + 50n, where n is the little-endian number in the bytes 80 to 83. Neither half of
-//! this is enough: the header of a binary file may start with `solid`, and an ASCII file can have any size. (An ASCII
-//! file has at least 0x09090909 there, so it would have to be larger than 7 GB to be mistaken.)
+//! A file is binary iff its size is 84 + 50n, where n is the little-endian number in the bytes 80 to 83. Neither half
+//! of this is enough: the header of a binary file may start with `solid`, and an ASCII file can have any size. (An
+//! ASCII file has at least 0x09090909 there, so it would have to be larger than 7 GB to be mistaken.)
 //!
 //! Corners with the same coordinates become one vertex, where −0 = 0. Normals are ignored. Vertices count from 0.
 //!
-//! Why not the crate `stl_io`: it takes every file that starts with `solid ` for ASCII and every other one for binary, so
-//! it misreads binary files with such a header and ASCII files with a blank before it; it reads ASCII coordinates as
+//! Why not the crate `stl_io`: it takes every file that starts with `solid ` for ASCII and every other one for binary,
+//! so it misreads binary files with such a header and ASCII files with a blank before it; it reads ASCII coordinates as
 //! `f32`; and its errors have no place.
 
 use super::ahead::{Rows, read_aligned};

@@ -8,7 +8,8 @@
 //! | `.ele` | count, 4, number of attributes | number, four vertices, attributes |
 //! | `.face` | count, whether marked | number, three vertices, mark |
 //! | `.edge` | count, whether marked | number, two vertices, mark |
-//! | `.steiner` | count | vertex, a, b, t, perhaps rest: the vertex is exactly at a + (t + rest)(b−a); our own, only if there are such vertices |
+//! | `.steiner` | count | vertex, a, b, t, perhaps rest: the vertex is exactly at a + (t + rest)(b−a); our own, only if
+//! there are such vertices |
 //!
 //! Source: Si, *TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator*, ACM TOMS 41(2), 2015, and the files that
 //! TetGen 1.5.0 writes. The orientation of tetrahedra in its `.ele` files is ours, det[b−a, c−a, d−a] > 0, so
@@ -291,8 +292,8 @@ impl Source {
     }
 }
 
-/// What is left of a line: fields between blanks, each of which a comma may end, as TetGen allows. A comma within a field is
-/// more likely a decimal one, and no number.
+/// What is left of a line: fields between blanks, each of which a comma may end, as TetGen allows. A comma within a
+/// field is more likely a decimal one, and no number.
 struct Line<'a> {
     rest: &'a [u8],
 }

@@ -1,9 +1,9 @@
 //! A pipe with a right-angled bend, with facets that are flat only to rounding.
 //!
-//! The pipe is turned by a random rotation, and its coordinates are rounded to doubles. So its ends, which are cut off at a
-//! slant, the cut through the middle of its bend, and the quadrangles of its walls, all of which would be planar in real
-//! numbers, are planar to a few units in the last place only. That is the purpose of this kind: all others are exactly
-//! planar.
+//! The pipe is turned by a random rotation, and its coordinates are rounded to doubles. So its ends, which are cut off
+//! at a slant, the cut through the middle of its bend, and the quadrangles of its walls, all of which would be planar
+//! in real numbers, are planar to a few units in the last place only. That is the purpose of this kind: all others are
+//! exactly planar.
 
 use super::draft::{Draft, along};
 use super::draw::{Draw, turn};

@@ -1,4 +1,5 @@
-//! A box divided into rooms by walls, each room a region with an attribute; some walls are missing, some rooms are holes.
+//! A box divided into rooms by walls, each room a region with an attribute; some walls are missing, some rooms are
+//! holes.
 
 use super::draft::{Draft, Sets};
 use super::draw::Draw;

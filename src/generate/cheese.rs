@@ -1,7 +1,7 @@
 //! A block full of bores that cross.
 //!
-//! Bores of round cross-section would meet in curves. Here they meet in cubic cells: from a cell, a bore goes through a hole
-//! in one of its square sides to the next cell, or to the outside. So everything is exactly planar.
+//! Bores of round cross-section would meet in curves. Here they meet in cubic cells: from a cell, a bore goes through a
+//! hole in one of its square sides to the next cell, or to the outside. So everything is exactly planar.
 
 use super::draft::{Draft, Loop, Sets, placed, rectangle};
 use super::draw::{Draw, circle, turn};

@@ -4,10 +4,10 @@ use super::draft::{Draft, lift, sides};
 use super::draw::{Draw, grid, turn};
 use crate::exchange::Plc;
 
-/// Schönhardt's polyhedra, and others like it with bases of up to seven corners: a prism whose top is turned against its base,
-/// with diagonals that go the longer way, so that its sides bend inwards. With three corners no tetrahedralization has no
-/// more vertices. As many as there is room for, at places and along axes of their own. Bases are across a coordinate axis
-/// and so exactly planar.
+/// Schönhardt's polyhedra, and others like it with bases of up to seven corners: a prism whose top is turned against
+/// its base, with diagonals that go the longer way, so that its sides bend inwards. With three corners no
+/// tetrahedralization has no more vertices. As many as there is room for, at places and along axes of their own. Bases
+/// are across a coordinate axis and so exactly planar.
 pub(super) fn schoenhardt(draw: &mut Draw, size: usize) -> Plc {
     let mut draft = Draft::default();
     // Twelve facets and more or less each.
@@ -48,12 +48,12 @@ fn one_prism(draft: &mut Draft, draw: &mut Draw, corners: usize, place: [f64; 3]
     }
 }
 
-/// Chazelle's polyhedron: a block with n deep notches from below and n from above, across them, whose edges lie on the surfaces
-/// z = xy and z = xy + 1. Tetrahedra between these surfaces are small, so that there must be about n² of them.
+/// Chazelle's polyhedron: a block with n deep notches from below and n from above, across them, whose edges lie on the
+/// surfaces z = xy and z = xy + 1. Tetrahedra between these surfaces are small, so that there must be about n² of them.
 ///
-/// Notches are 2w wide with w < 1/4n, so that those from below and from above keep apart. Their sides are not planar, but
-/// two triangles each. The seed shifts the edges by up to 1/4. In the end heights are divided by a power of two, for a block about
-/// as high as wide.
+/// Notches are 2w wide with w < 1/4n, so that those from below and from above keep apart. Their sides are not planar,
+/// but two triangles each. The seed shifts the edges by up to 1/4. In the end heights are divided by a power of two,
+/// for a block about as high as wide.
 pub(super) fn chazelle(draw: &mut Draw, size: usize) -> Plc {
     let n = ((size as f64 - 6.0) / 10.0).round().max(1.0) as usize;
     let side = n as f64 + 1.0;

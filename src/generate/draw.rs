@@ -1,8 +1,8 @@
 //! Numbers for generators that are the same bits on every platform: random choices, and points of the unit circle.
 //!
-//! ChaCha8 is specified and portable; what is drawn from its bits is written out here, since the distributions of `rand`
-//! may change with its version. Sines and cosines of the standard library differ between platforms in their last bits:
-//! here they are sums and products, which IEEE 754 defines exactly.
+//! ChaCha8 is specified and portable; what is drawn from its bits is written out here, since the distributions of
+//! `rand` may change with its version. Sines and cosines of the standard library differ between platforms in their last
+//! bits: here they are sums and products, which IEEE 754 defines exactly.
 //!
 //! Drawn coordinates are multiples of 2⁻²⁰ ([`grid`]), so that sums and small products of them are exact and what is
 //! meant to be planar is exactly so.
@@ -126,9 +126,9 @@ fn taylor(x: f64) -> [f64; 2] {
     [series(18, 1.0), series(19, x)]
 }
 
-/// The corners of the regular n-gon in the unit circle, counterclockwise, as multiples of 2⁻³⁰: times radii of few bits,
-/// plus centres of few bits, they are exact, so that rings of one n and one centre are exactly similar and the walls
-/// between them, slanted or not, are exactly planar.
+/// The corners of the regular n-gon in the unit circle, counterclockwise, as multiples of 2⁻³⁰: times radii of few
+/// bits, plus centres of few bits, they are exact, so that rings of one n and one centre are exactly similar and the
+/// walls between them, slanted or not, are exactly planar.
 pub(super) fn circle(n: usize) -> Vec<[f64; 2]> {
     let round = |x: f64| (x * 2f64.powi(30)).round() * 2f64.powi(-30);
     (0..n as u64)

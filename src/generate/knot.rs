@@ -5,8 +5,8 @@ use super::draw::{Draw, turn};
 use crate::exchange::Plc;
 use crate::number::vector::cross;
 
-/// How often a knot goes around the axis of its torus, and around the torus' core; and the radius of its tube, less than
-/// half the distance of its strands and less than its radius of curvature.
+/// How often a knot goes around the axis of its torus, and around the torus' core; and the radius of its tube, less
+/// than half the distance of its strands and less than its radius of curvature.
 const KNOTS: [(u64, u64, f64); 5] = [
     (2, 3, 0.30),
     (2, 5, 0.25),

@@ -1,11 +1,11 @@
 //! A maze on a wheel: corridors between walls on a plate, with a bore in its middle.
 //!
-//! The plan is a grid in polar coordinates, whose blocks are corridor or wall. The corridors of a perfect maze are a tree, and
-//! so are its walls: the floor and the top of the walls are polygons with very many corners, of which the latter goes round
-//! the former. A few doors more make islands of walls, so that the floor has holes.
+//! The plan is a grid in polar coordinates, whose blocks are corridor or wall. The corridors of a perfect maze are a
+//! tree, and so are its walls: the floor and the top of the walls are polygons with very many corners, of which the
+//! latter goes round the former. A few doors more make islands of walls, so that the floor has holes.
 //!
-//! Walls are upright and floors level, so that everything is exactly planar. At each point of the grid a block of corridor
-//! faces a post of the wall, so that no region touches itself there, and every outline is a simple polygon.
+//! Walls are upright and floors level, so that everything is exactly planar. At each point of the grid a block of
+//! corridor faces a post of the wall, so that no region touches itself there, and every outline is a simple polygon.
 
 use super::draft::{Draft, Sets, sides};
 use super::draw::{Draw, turn};

@@ -1,5 +1,5 @@
-//! Models of any size, made rather than collected: the kinds of the paper's Table 1 (parts with bores, mazes, blocks of crossing
-//! bores, a bent pipe with cuts that are not quite flat) and others that are hard in ways of their own.
+//! Models of any size, made rather than collected: the kinds of the paper's Table 1 (parts with bores, mazes, blocks of
+//! crossing bores, a bent pipe with cuts that are not quite flat) and others that are hard in ways of their own.
 //!
 //! ```
 //! use tetflip::generate::{Kind, generate};
@@ -10,10 +10,11 @@
 //! ```
 //!
 //! # Valid by construction
-//! No model is the result of a boolean operation, and none is tried and thrown away: facets are drawn where they belong. Bores
-//! meet in cubic cells, features have places of their own, and what is drawn twice has the same coordinates. Facets of
-//! more than three corners are exactly planar, since they lie across a coordinate axis, or have two edges parallel to
-//! one, or come from lattices whose points are exact; all but those of [`Kind::Bend`], whose purpose is that they are not.
+//! No model is the result of a boolean operation, and none is tried and thrown away: facets are drawn where they
+//! belong. Bores meet in cubic cells, features have places of their own, and what is drawn twice has the same
+//! coordinates. Facets of more than three corners are exactly planar, since they lie across a coordinate axis, or have
+//! two edges parallel to one, or come from lattices whose points are exact; all but those of [`Kind::Bend`], whose
+//! purpose is that they are not.
 //!
 //! # Reproducible
 //! Kind, seed and size give the same bits on every platform: random numbers are ChaCha8's, and there is no arithmetic

@@ -1,5 +1,5 @@
-//! Surfaces that are seen whole from the origin: spheres and stars. They have no holes and do not meet themselves, because
-//! their projections to the unit sphere are triangulations of it.
+//! Surfaces that are seen whole from the origin: spheres and stars. They have no holes and do not meet themselves,
+//! because their projections to the unit sphere are triangulations of it.
 
 use super::draft::{Draft, along};
 use super::draw::Draw;

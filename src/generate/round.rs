@@ -4,9 +4,9 @@ use super::draft::{Draft, Loop, lift, placed, sides};
 use super::draw::{Draw, circle, turn};
 use crate::exchange::Plc;
 
-/// A shaft of many steps and chamfers: rings of exactly similar regular polygons, so that chamfers, too, are exactly planar
-/// quadrangles. The corners of a ring are cocircular, those of some rings cospherical, up to rounding, and by symmetry
-/// eight or sixteen of them exactly so. A blind bore in each end; a groove is a step like others.
+/// A shaft of many steps and chamfers: rings of exactly similar regular polygons, so that chamfers, too, are exactly
+/// planar quadrangles. The corners of a ring are cocircular, those of some rings cospherical, up to rounding, and by
+/// symmetry eight or sixteen of them exactly so. A blind bore in each end; a groove is a step like others.
 pub(super) fn shaft(draw: &mut Draw, size: usize) -> Plc {
     let corners = ((size as f64 / 4.0).sqrt().round() as usize).clamp(4, 256) / 4 * 4;
     let outline = circle(corners);
@@ -52,8 +52,8 @@ pub(super) fn shaft(draw: &mut Draw, size: usize) -> Plc {
 
 /// A gear whose teeth turn with the height, in triangles, with a bore and lightening holes straight through it.
 ///
-/// All points of a flank's horizontal section come in the order of their angles, as long as a layer turns by less than the
-/// smallest step of the profile, so that the flanks do not meet.
+/// All points of a flank's horizontal section come in the order of their angles, as long as a layer turns by less than
+/// the smallest step of the profile, so that the flanks do not meet.
 pub(super) fn gear(draw: &mut Draw, size: usize) -> Plc {
     let teeth = ((size as f64 / 16.0).sqrt().round() as usize).clamp(6, 240);
     let layers = ((size as f64 / (8 * teeth) as f64 - 0.75).round() as usize).max(1);

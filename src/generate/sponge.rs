@@ -12,8 +12,8 @@ fn squares(depth: u32) -> [usize; 2] {
     ]
 }
 
-/// The sponge that has at most `size` facets, of which each is a square, and as many side by side as come nearest to that.
-/// The seed chooses the axis of the row.
+/// The sponge that has at most `size` facets, of which each is a square, and as many side by side as come nearest to
+/// that. The seed chooses the axis of the row.
 pub(super) fn sponge(draw: &mut Draw, size: usize) -> Plc {
     let fits = |&depth: &u32| squares(depth)[0] <= size;
     let depth = (1..7).take_while(fits).last().unwrap_or(1);

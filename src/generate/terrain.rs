@@ -1,5 +1,5 @@
-//! Layers of ground: surfaces of triangles over one plan, closed at their sides, with a region for every part of a layer.
-//! Layers but the lowest thin out: where two surfaces come together they are one.
+//! Layers of ground: surfaces of triangles over one plan, closed at their sides, with a region for every part of a
+//! layer. Layers but the lowest thin out: where two surfaces come together they are one.
 
 use super::draft::{Draft, Sets, lift};
 use super::draw::{Draw, grid};

@@ -4,8 +4,8 @@ use super::draft::Draft;
 use super::draw::{Draw, turn};
 use crate::exchange::Plc;
 
-/// A book in a box: upright pages around one edge, whose angles differ by factors of up to 1024; rectangles of random lengths, and
-/// triangles.
+/// A book in a box: upright pages around one edge, whose angles differ by factors of up to 1024; rectangles of random
+/// lengths, and triangles.
 pub(super) fn fan(draw: &mut Draw, size: usize) -> Plc {
     let pages = size.saturating_sub(6).max(2);
     let mut draft = Draft::default();
@@ -33,8 +33,8 @@ pub(super) fn fan(draw: &mut Draw, size: usize) -> Plc {
     draft.finish()
 }
 
-/// A pile of tetrahedra 128 times as long as thick, in layers, in a box: those of a layer side by side, those of the next
-/// across them. All of them are bodies of one region, the box around them another.
+/// A pile of tetrahedra 128 times as long as thick, in layers, in a box: those of a layer side by side, those of the
+/// next across them. All of them are bodies of one region, the box around them another.
 pub(super) fn needles(draw: &mut Draw, size: usize) -> Plc {
     let count = (size.saturating_sub(6) as f64 / 4.0).round().max(1.0) as usize;
     let row = ((count as f64).sqrt().round() as usize).max(1);

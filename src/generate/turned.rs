@@ -1,7 +1,8 @@
 //! What a lathe or a drill makes: bores, counterbores and bosses on a plane face, along a coordinate axis.
 //!
-//! A [`Turned`] is a stack of prisms over similar regular polygons of decreasing radius. Its walls are parallel to the axis
-//! and its shelves across it, so that all its facets are exactly planar. It adds its first outline to the face it stands on.
+//! A [`Turned`] is a stack of prisms over similar regular polygons of decreasing radius. Its walls are parallel to the
+//! axis and its shelves across it, so that all its facets are exactly planar. It adds its first outline to the face it
+//! stands on.
 
 use super::draft::{Draft, Loop, placed};
 

@@ -1,9 +1,9 @@
 //! A double with a bound of its error, and what it says about a number that lies on a grid.
 //!
-//! If a number is known to be a multiple of some quantum, and the error of a value that stands for it is less than half of
-//! that, then it is the multiple nearest to the value. If also the value is less than 2^52 quanta, that multiple is found
-//! in floats: where the quantum is a power of two the division by it is exact (or underflows towards 0, the nearest multiple
-//! then), and so is rounding to an integer.
+//! If a number is known to be a multiple of some quantum, and the error of a value that stands for it is less than half
+//! of that, then it is the multiple nearest to the value. If also the value is less than 2^52 quanta, that multiple is
+//! found in floats: where the quantum is a power of two the division by it is exact (or underflows towards 0, the
+//! nearest multiple then), and so is rounding to an integer.
 
 use crate::number::{Approx, Sign};
 

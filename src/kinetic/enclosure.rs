@@ -11,19 +11,19 @@
 //!
 //! > w = (e + (|q̂| + T)·g)/(d − g)·(1 + 2⁻⁴⁸) + |q̂|·2⁻⁵² + T.
 //!
-//! The fraction has five roundings, the sums after it three, and the factor 1 + 2u is to be made up for; 1 + 2⁻⁴⁸ = 1 + 32u
-//! does all that (`paper/theory.tex` has it in detail). The product may underflow and lose η/2 ≤ u·e, because e ≥ T; d − g
-//! is a difference of doubles and does not underflow; the quotient may, and loses η/2, which the last T covers together
-//! with that of q̂. Overflow makes w infinite or NaN, and then no comparison is decided by it.
+//! The fraction has five roundings, the sums after it three, and the factor 1 + 2u is to be made up for; 1 + 2⁻⁴⁸ = 1 +
+//! 32u does all that (`paper/theory.tex` has it in detail). The product may underflow and lose η/2 ≤ u·e, because e ≥
+//! T; d − g is a difference of doubles and does not underflow; the quotient may, and loses η/2, which the last T covers
+//! together with that of q̂. Overflow makes w infinite or NaN, and then no comparison is decided by it.
 //!
 //! # The comparison
-//! Both numbers are multiplied by a power of two that brings the first time of a region near 1, and w is then rounded to
-//! single precision and from there to the next number above, so that the queue has less to move. A product that underflows
-//! errs by at most η/2, twice that is less than the 2⁻¹⁵⁰ by which w has grown at least; an overflow gives an infinite or NaN
-//! enclosure.
+//! Both numbers are multiplied by a power of two that brings the first time of a region near 1, and w is then rounded
+//! to single precision and from there to the next number above, so that the queue has less to move. A product that
+//! underflows errs by at most η/2, twice that is less than the 2⁻¹⁵⁰ by which w has grown at least; an overflow gives
+//! an infinite or NaN enclosure.
 //!
-//! q̂_B − q̂_A > (w_A + w_B)(1 + 2⁻⁵⁰) in floats implies τ_A < τ_B: the left side is at most (1 + u) times its exact value,
-//! the right side at least (1 + 2⁻⁵⁰)(1 − 2u) > 1 + u times w_A + w_B. NaN and infinity make it false.
+//! q̂_B − q̂_A > (w_A + w_B)(1 + 2⁻⁵⁰) in floats implies τ_A < τ_B: the left side is at most (1 + u) times its exact
+//! value, the right side at least (1 + 2⁻⁵⁰)(1 − 2u) > 1 + u times w_A + w_B. NaN and infinity make it false.
 
 use super::bounded::Bounded;
 use std::cmp::Ordering;
@@ -82,8 +82,8 @@ impl Enclosure {
 /// The middle and the half width of an interval that contains −N/D, for D certainly positive.
 #[inline]
 pub(super) fn enclosure(n: &Bounded, d: &Bounded) -> (f64, f64) {
-    // e is at least T, since the product below may underflow; and infinite where the bound overflowed to NaN, which the larger of
-    // the two would forget.
+    // e is at least T, since the product below may underflow; and infinite where the bound overflowed to NaN, which the
+    // larger of the two would forget.
     let e = match n.error {
         e if e.is_nan() => f64::INFINITY,
         e => e.max(f64::MIN_POSITIVE),

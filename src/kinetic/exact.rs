@@ -6,7 +6,8 @@ use crate::number::Exact;
 use std::cmp::Ordering;
 use std::marker::PhantomData;
 
-/// What an exact order asks of what moves: S(τ) = N + τ·D + Σ e_v ε_v of an event with K vertices, in numbers of type `N`.
+/// What an exact order asks of what moves: S(τ) = N + τ·D + Σ e_v ε_v of an event with K vertices, in numbers of type
+/// `N`.
 pub trait Motion<N, const K: usize> {
     /// What happens.
     type Event: Copy;
@@ -17,13 +18,13 @@ pub trait Motion<N, const K: usize> {
     /// The event's vertices, by their ranks in ε order (less than `u32::MAX`), and their coefficients e_v.
     fn perturbation(&mut self, event: &Self::Event) -> [(u32, N); K];
 
-    /// Whether two events obviously have the same time, perturbed or not, because they have the same vertices. (If this says no, they
-    /// may still have.)
+    /// Whether two events obviously have the same time, perturbed or not, because they have the same vertices. (If this
+    /// says no, they may still have.)
     fn is_one_circuit(a: &Self::Event, b: &Self::Event) -> bool;
 }
 
-/// Times as exact quotients; ties are decided by the perturbation of the weights. Two events are `Equal` only if all terms
-/// vanish: they have one and the same circuit.
+/// Times as exact quotients; ties are decided by the perturbation of the weights. Two events are `Equal` only if all
+/// terms vanish: they have one and the same circuit.
 pub struct ExactOrder<M, N, const K: usize> {
     /// What moves.
     pub motion: M,

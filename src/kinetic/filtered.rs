@@ -1,7 +1,7 @@
-//! Exact order at the price of floats: each event carries a float enclosure of its time ([`Enclosure`]); where two enclosures
-//! overlap, the exact quotients decide, computed once per event and kept; where those are equal, the perturbation.
-//! Exact quotients are of 64-bit integers where the caller is certain of those (small coordinates on a grid), else of dyadic
-//! numbers of any size.
+//! Exact order at the price of floats: each event carries a float enclosure of its time ([`Enclosure`]); where two
+//! enclosures overlap, the exact quotients decide, computed once per event and kept; where those are equal, the
+//! perturbation. Exact quotients are of 64-bit integers where the caller is certain of those (small coordinates on a
+//! grid), else of dyadic numbers of any size.
 
 use super::bounded::Bounded;
 use super::enclosure::{Enclosure, enclosure};
@@ -47,7 +47,8 @@ impl<const K: usize> InQuanta<K> {
         }
     }
 
-    /// Which of two times comes first: the sign of t_0, then those of t_v. All products are of numbers of up to 53 bits.
+    /// Which of two times comes first: the sign of t_0, then those of t_v. All products are of numbers of up to 53
+    /// bits.
     fn compare(&self, other: &Self, ties: &mut u64) -> Ordering {
         let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
         let (a, b) = (self, other);
@@ -101,8 +102,8 @@ impl<M: Motion<Dyadic, K>, const K: usize> FilteredOrder<M, K> {
         self.keep(Exactly::Integers(integers))
     }
 
-    /// The key of an event with certainly positive D, given N and D with bounds of their errors. The first one sets the scale;
-    /// `typical` is what times are like, if that one is 0.
+    /// The key of an event with certainly positive D, given N and D with bounds of their errors. The first one sets the
+    /// scale; `typical` is what times are like, if that one is 0.
     #[inline(always)]
     pub fn key(&mut self, [n, d]: [&Bounded; 2], typical: impl FnOnce() -> f64) -> Enclosure {
         let (middle, width) = enclosure(n, d);

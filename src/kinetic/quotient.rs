@@ -1,11 +1,12 @@
 //! The order of two events' times as exact quotients, and under the perturbation.
 //!
-//! Let A and B be events with S = N + τ·D + Σ e_v ε_v each, and D_A, D_B > 0. Their times are −(N + Σ e_v ε_v)/D. So A comes
-//! before B iff the first non-zero of
+//! Let A and B be events with S = N + τ·D + Σ e_v ε_v each, and D_A, D_B > 0. Their times are −(N + Σ e_v ε_v)/D. So A
+//! comes before B iff the first non-zero of
 //!
 //! > t_0 = N_A·D_B − N_B·D_A,  t_v = e_{A,v}·D_B − e_{B,v}·D_A, v in ε order,
 //!
-//! is positive, where e = 0 for a vertex that an event does not have. No product of two ε occurs, because D is free of ε.
+//! is positive, where e = 0 for a vertex that an event does not have. No product of two ε occurs, because D is free of
+//! ε.
 
 use crate::number::{Exact, Sign};
 use std::cmp::Ordering;
@@ -33,8 +34,8 @@ impl<N: Exact> Quotient<N> {
         order_of((ab - &ba).exact_sign())
     }
 
-    /// The order of two events with equal quotients, `self` and `other`, whose vertices and coefficients e_v are given: the
-    /// signs of t_v until one is not zero. Vertices are given by their identities, their ranks in ε order.
+    /// The order of two events with equal quotients, `self` and `other`, whose vertices and coefficients e_v are given:
+    /// the signs of t_v until one is not zero. Vertices are given by their identities, their ranks in ε order.
     pub fn compare_perturbed<const K: usize>(
         &self,
         terms: &[(u32, N); K],
@@ -75,8 +76,8 @@ fn order_of(t: Sign) -> Ordering {
     }
 }
 
-/// The first of the orders by t_v, for the vertices of two events in ε order, that is not `Equal`. `order_by` is given the
-/// places of v among the vertices of A and of B, where it is among them; both lists are ascending.
+/// The first of the orders by t_v, for the vertices of two events in ε order, that is not `Equal`. `order_by` is given
+/// the places of v among the vertices of A and of B, where it is among them; both lists are ascending.
 pub(super) fn first_difference<const K: usize>(
     a: [u32; K],
     b: [u32; K],

@@ -68,8 +68,8 @@ impl<N: Float, T: TieBreaker> TimeOrder for RoundedOrder<N, T> {
     }
 }
 
-/// Times in a rounded type of any width, by their exact values. Doubles would not tell times of more bits, or with larger
-/// exponents, apart, so there are no keys.
+/// Times in a rounded type of any width, by their exact values. Doubles would not tell times of more bits, or with
+/// larger exponents, apart, so there are no keys.
 pub struct WideOrder<T> {
     /// For equal times.
     pub ties: T,

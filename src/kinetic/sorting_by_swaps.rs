@@ -1,5 +1,5 @@
-//! The queue and the orders on a motion on a line: particles x_v(τ) = a_v + b_v·τ + ε_v, and the swaps of neighbours that
-//! keep them sorted (kinetic sorting). An event has two vertices; all times are rational, and many are equal.
+//! The queue and the orders on a motion on a line: particles x_v(τ) = a_v + b_v·τ + ε_v, and the swaps of neighbours
+//! that keep them sorted (kinetic sorting). An event has two vertices; all times are rational, and many are equal.
 
 use super::*;
 use crate::number::{Approx, Dyadic, Exact, Number};
@@ -12,7 +12,8 @@ type Particle = (i32, i32);
 /// Neighbours, the left one first.
 type Pair = [usize; 2];
 
-/// The motion of particles, whose identities are their indices: S = x_left − x_right is negative while they are in order.
+/// The motion of particles, whose identities are their indices: S = x_left − x_right is negative while they are in
+/// order.
 struct OnLine<'a>(&'a [Particle]);
 
 impl OnLine<'_> {
@@ -92,7 +93,8 @@ impl Times for FilteredOrder<OnLine<'_>, 2> {
     }
 }
 
-/// Sorts by swaps in the order of the queue, and returns the swaps. Every swap must be one of neighbours when its time comes.
+/// Sorts by swaps in the order of the queue, and returns the swaps. Every swap must be one of neighbours when its time
+/// comes.
 fn swaps<T: Times>(particles: &[Particle], times: &mut T) -> Vec<Pair> {
     let mut line: Vec<usize> = (0..particles.len()).collect();
     // Just before τ = 0⁻: by place, then by ε, of which that of the smaller identity is the greater.

@@ -3,8 +3,10 @@
 //!
 //! | file | what is repaired |
 //! |---|---|
-//! | `alone` | repeated corners; facets, polygons and segments without area or length; corners of a facet on its own edges |
-//! | `merged` | coplanar facets that intersect others are merged first, so that the edges between them count for nothing |
+//! | `alone` | repeated corners; facets, polygons and segments without area or length; corners of a facet on its own
+//! edges |
+//! | `merged` | coplanar facets that intersect others are merged first, so that the edges between them count for
+//! nothing |
 //! | `edges` | vertices exactly on edges that do not have them |
 //! | `inside` | vertices and edges exactly inside facets that do not have them |
 //! | `overlaps` | coplanar facets that overlap, or are equal |

@@ -1,8 +1,8 @@
 //! Deleting an inserted polygon: which triangles are its, which constraints stay, and what to call what is in the way.
 //! The flips are in [`flips`](crate::recover::flips).
 //!
-//! The segments of the polygon stay, with their Steiner points. Everything takes time in proportion to the polygon and to
-//! the region that is flipped, not to the mesh.
+//! The segments of the polygon stay, with their Steiner points. Everything takes time in proportion to the polygon and
+//! to the region that is flipped, not to the mesh.
 
 use crate::error::{DeletionRefused, Obstacle};
 use crate::mesh::{Corner, Incidence, TetId, TetMesh, VertexId};

@@ -5,10 +5,10 @@
 //!
 //! # What is shared with the construction
 //! The numbers that know their sign ([`crate::number`]), the polynomials ([`crate::predicate::formula`]), the type of a
-//! parameter along a segment, ids of vertices, vectors and parts of doubles, prefetching and threads. A test in `signs::formulas` compares the
-//! polynomials with sums over all permutations in integers, and tests beside each way to a sign compare it with exact
-//! numbers. All else is written a second time on purpose: a mistake in the filters, the mesh data structure, or the
-//! recovery does not decide both what is built and what is accepted.
+//! parameter along a segment, ids of vertices, vectors and parts of doubles, prefetching and threads. A test in
+//! `signs::formulas` compares the polynomials with sums over all permutations in integers, and tests beside each way to
+//! a sign compare it with exact numbers. All else is written a second time on purpose: a mistake in the filters, the
+//! mesh data structure, or the recovery does not decide both what is built and what is accepted.
 //!
 //! # The rooms
 //! | room | what is in it |

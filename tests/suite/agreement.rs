@@ -1,5 +1,5 @@
-//! Cavity insertion, gift wrapping, exact flips in every number type, and every order of insertion end in the same tetrahedra, and the
-//! exact verifier accepts them.
+//! Cavity insertion, gift wrapping, exact flips in every number type, and every order of insertion end in the same
+//! tetrahedra, and the exact verifier accepts them.
 
 use crate::common::families::{
     crossing_planes, facet, fins, lattice_with_rectangle, sphere, walls,
@@ -123,7 +123,8 @@ proptest! {
         reordered.facets.swap(1, seed / n % n);
         for insertion in [Insertion::Cavity, Insertion::GiftWrap, Insertion::Flip(FlipOrder::EXACT)] {
             let (Ok(a), Ok(b)) = (run(&plc, insertion), run(&reordered, insertion)) else { continue };
-            // Segments are numbered by first appearance, so Steiner points may differ; without them the meshes are equal.
+            // Segments are numbered by first appearance, so Steiner points may differ; without them the meshes are
+            // equal.
             if a.0.vertices.len() == plc.vertices.len() {
                 prop_assert_eq!(a.0.tets, b.0.tets);
             }
@@ -164,8 +165,8 @@ fn four_four_flip_certifies_its_own_plane() {
     assert!(counts.flips.four_four > 0);
 }
 
-/// The rare ways of cavity retriangulation are taken, swallowing tetrahedra, displacing polygons and reinserting them, and
-/// the mesh is still that of the flips.
+/// The rare ways of cavity retriangulation are taken, swallowing tetrahedra, displacing polygons and reinserting them,
+/// and the mesh is still that of the flips.
 #[test]
 fn cavities_swallow_and_displace() {
     use proptest::strategy::ValueTree;

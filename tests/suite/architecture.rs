@@ -1,5 +1,5 @@
-//! Who may know whom. A room is a directory or a file of `src`, or of a room with rooms of its own; it may use those that
-//! stand before it in its list, and no other. ARCHITECTURE.md draws the same picture.
+//! Who may know whom. A room is a directory or a file of `src`, or of a room with rooms of its own; it may use those
+//! that stand before it in its list, and no other. ARCHITECTURE.md draws the same picture.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,8 +20,8 @@ const INNER: [(&str, &str); 2] = [
     ),
 ];
 
-/// Rooms that may use some of those before them only: the mesh knows no numbers, and the verifier shares next to nothing
-/// with what it verifies.
+/// Rooms that may use some of those before them only: the mesh knows no numbers, and the verifier shares next to
+/// nothing with what it verifies.
 const ONLY: [(&str, &str); 3] = [
     ("number", "machine"),
     ("mesh", "machine threads"),

@@ -484,8 +484,8 @@ proptest! {
     }
 }
 
-/// One thread and three find the same, in the same order: where there is nothing, and where there is a lot. With a limit, the first
-/// conflicts are found.
+/// One thread and three find the same, in the same order: where there is nothing, and where there is a lot. With a
+/// limit, the first conflicts are found.
 #[test]
 fn threads_find_the_same() {
     let mut plc = tetflip::generate::generate(tetflip::generate::Kind::Terrain, 2, 6000);

@@ -139,8 +139,9 @@ fn delete(cdt: &mut Cdt, f: usize) -> DeletionCounts {
     counts
 }
 
-/// Inserts one polygon after the other, each three times with a deletion after the first and the second; then deletes them
-/// all in another order and puts some back. After every step the mesh is the one that belongs to the set of polygons.
+/// Inserts one polygon after the other, each three times with a deletion after the first and the second; then deletes
+/// them all in another order and puts some back. After every step the mesh is the one that belongs to the set of
+/// polygons.
 fn undo_and_redo(plc: &Plc, seed: u64) {
     let Some(start) = flat(plc) else { return };
     let n = start.complex().polygons.len();
@@ -202,8 +203,8 @@ struct Tried {
     refused: usize,
 }
 
-/// Inserts and deletes polygons that are flat only to rounding. What is deleted at once leaves no trace, what is deleted
-/// later leaves a CDT, and what is refused leaves everything as it was.
+/// Inserts and deletes polygons that are flat only to rounding. What is deleted at once leaves no trace, what is
+/// deleted later leaves a CDT, and what is refused leaves everything as it was.
 fn undo_rounded(plc: &Plc, seed: u64, tried: &mut Tried) {
     let Ok(mut cdt) = Cdt::with_segments(plc, true, &mut Report::default()) else {
         return;
@@ -300,8 +301,8 @@ fn delete_around(cdt: &mut Cdt, edges: &[[VertexId; 2]], triangles: &[[VertexId;
 }
 
 /// Declares edges and triangles of the mesh with f to be constraints. An edge that is not there without f holds f in
-/// place, one that is does not. A triangle may or may not; it does not if its edges are there without f, as then it can be
-/// inserted after f is deleted.
+/// place, one that is does not. A triangle may or may not; it does not if its edges are there without f, as then it can
+/// be inserted after f is deleted.
 fn keep_more(plc: &Plc, seed: u64, blocked_by_triangle: &mut usize) {
     let Some(start) = flat(plc) else { return };
     if start.points.len() != plc.vertices.len() {
@@ -515,8 +516,8 @@ fn a_triangle_holds_a_polygon_in_place() {
     }
 }
 
-/// Two rooms with a wall between them. Without an outer wall of one room the surface is open; without all of them the other
-/// room is what is left.
+/// Two rooms with a wall between them. Without an outer wall of one room the surface is open; without all of them the
+/// other room is what is left.
 #[test]
 fn a_deleted_polygon_bounds_nothing() {
     let mut plc = Plc::default();

@@ -1,5 +1,5 @@
-//! Exact Steiner points: every polygon stays flat, every algorithm ends in the same tetrahedra, the verifier accepts them
-//! without any tolerance, and output says where the points are and what rounding spoils.
+//! Exact Steiner points: every polygon stays flat, every algorithm ends in the same tetrahedra, the verifier accepts
+//! them without any tolerance, and output says where the points are and what rounding spoils.
 
 use crate::common::families::{crossing_planes, fins, lattice_with_rectangle, sphere, walls};
 use crate::common::quiet;

@@ -1,5 +1,5 @@
-//! The readers of TetGen's files, OFF and STL: what they must accept, and what they must refuse and where. The other formats
-//! are in `surface_formats`, random files in `fuzz_formats`.
+//! The readers of TetGen's files, OFF and STL: what they must accept, and what they must refuse and where. The other
+//! formats are in `surface_formats`, random files in `fuzz_formats`.
 
 use tetflip::exchange::{Note, Plc};
 use tetflip::format::{

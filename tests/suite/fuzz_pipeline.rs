@@ -103,8 +103,9 @@ fn accepted(plc: &Plc, mesh: &ExportedMesh, keep_hull: bool) -> Result<(), Strin
     }
 }
 
-/// What must hold for any input, with rounded Steiner points. (A mesh of an invalid input with features of a few ulps may be
-/// refused: to the verifier's tolerance such features are not there.) `valid`: the input is a PLC by construction.
+/// What must hold for any input, with rounded Steiner points. (A mesh of an invalid input with features of a few ulps
+/// may be refused: to the verifier's tolerance such features are not there.) `valid`: the input is a PLC by
+/// construction.
 fn check(plc: &Plc, keep_hull: bool, merge_coplanar: bool, valid: bool) {
     check_exactly(plc, keep_hull, merge_coplanar);
     let outcomes = run_all(plc, keep_hull, merge_coplanar);
@@ -189,8 +190,8 @@ fn check_exactly(plc: &Plc, keep_hull: bool, merge_coplanar: bool) {
                     failure,
                     Failure::Delaunay(_) | Failure::Domain(_) | Failure::Plc(_)
                 );
-                // Edges that nearly overlap may need any number of Steiner points, and vertices nearer to a segment than
-                // 2^-106 of its length a place between parameters.
+                // Edges that nearly overlap may need any number of Steiner points, and vertices nearer to a segment
+                // than 2^-106 of its length a place between parameters.
                 let too_many = matches!(
                     failure,
                     Failure::GaveUp(
@@ -339,8 +340,8 @@ fn soup() -> impl Strategy<Value = Plc> {
     )
 }
 
-/// Rectangles and triangles in planes that are nearly all parallel to two axes or tilted by 45 degrees, with corners on a
-/// lattice: they touch, overlap and cross, and many are accepted.
+/// Rectangles and triangles in planes that are nearly all parallel to two axes or tilted by 45 degrees, with corners on
+/// a lattice: they touch, overlap and cross, and many are accepted.
 fn rectangles() -> impl Strategy<Value = Plc> {
     let rectangle = (
         lattice_point(5),

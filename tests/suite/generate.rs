@@ -1,5 +1,5 @@
-//! Generated models are what they promise: valid, of the size that was asked for, flat unless they are meant not to be, the
-//! same everywhere, and meshed to the same tetrahedra by all algorithms.
+//! Generated models are what they promise: valid, of the size that was asked for, flat unless they are meant not to be,
+//! the same everywhere, and meshed to the same tetrahedra by all algorithms.
 
 use std::hash::Hasher;
 use tetflip::cdt::{Options, tetrahedralize};

@@ -322,7 +322,8 @@ fn cuts_along_upper_edges_where_lower_ones_do_not_do() {
     }
 }
 
-/// CGAL's `1452672-min1.off`: segment 3-2 passes segment 4-0 at a distance of 8e-28, 1.5e-14, about an ulp, from vertex 3.
+/// CGAL's `1452672-min1.off`: segment 3-2 passes segment 4-0 at a distance of 8e-28, 1.5e-14, about an ulp, from vertex
+/// 3.
 fn an_ulp_apart() -> Plc {
     plc(
         &[
@@ -367,8 +368,8 @@ fn segments_less_than_an_ulp_apart() {
     assert!(verify(&plc, &mesh, hull).is_ok());
 }
 
-/// A quadrilateral on the hull that gets Steiner points, among them circumcenters of small triangles whose planes are not
-/// its plane.
+/// A quadrilateral on the hull that gets Steiner points, among them circumcenters of small triangles whose planes are
+/// not its plane.
 #[test]
 fn steiner_points_stay_on_the_plane() {
     let e = 2f64.powi(-48);

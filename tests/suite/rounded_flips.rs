@@ -1,6 +1,6 @@
 //! Flips in rounded numbers, down to eight bits and down to no exact predicate at all: whatever they do, they end; the
-//! library does not panic; a result that passes the exact judgement is the CDT; after a failure the region is as it was,
-//! and what the failure carries along fails again by itself.
+//! library does not panic; a result that passes the exact judgement is the CDT; after a failure the region is as it
+//! was, and what the failure carries along fails again by itself.
 //!
 //! `PROPTEST_CASES=20000 cargo test --release --test rounded_flips` looks harder.
 
@@ -77,7 +77,8 @@ fn check(plc: &Plc) {
     }
 }
 
-/// The region is a PLC of some of the vertices, in their order, with Steiner points behind, in which exact flips succeed.
+/// The region is a PLC of some of the vertices, in their order, with Steiner points behind, in which exact flips
+/// succeed.
 fn check_region(region: &Plc, plc: &Plc, times: FlipOrder) {
     let place = |p| plc.vertices.iter().position(|q| q == p);
     let places = region
@@ -165,8 +166,8 @@ proptest! {
     }
 }
 
-/// Ten points on a sphere and a square through it: times that are equal, in any number of bits, flipped in the wrong order.
-/// (Found by random search; TetGen 1.5.0 crashes on it.)
+/// Ten points on a sphere and a square through it: times that are equal, in any number of bits, flipped in the wrong
+/// order. (Found by random search; TetGen 1.5.0 crashes on it.)
 fn sphere() -> Plc {
     let points = [
         [8, -2, 0],

@@ -223,7 +223,8 @@ fn limits_end_one_run_and_not_the_survey() {
         assert_eq!(others.iter().find(lost), None);
         large
     };
-    // Not even this program gets through two hundred thousand vertices in that time; the others take a thousandth of it.
+    // Not even this program gets through two hundred thousand vertices in that time; the others take a thousandth of
+    // it.
     for row in run(&["--timeout=2"], "time.csv") {
         assert_eq!(row["outcome"], "timeout", "{row:?}");
         assert_eq!(row["limit_seconds"], "2");

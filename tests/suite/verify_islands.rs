@@ -7,7 +7,8 @@ use tetflip::mesh::VertexId;
 use tetflip::predicate::DoublePoints;
 use tetflip::verify::Domain;
 
-/// A tetrahedron in a cavity is no part of a convex hull, wherever it is in the list; what is in a cavity ends at facets.
+/// A tetrahedron in a cavity is no part of a convex hull, wherever it is in the list; what is in a cavity ends at
+/// facets.
 #[test]
 fn an_island_in_a_cavity() {
     let (mut plc, mut hollow) = nested(false);
@@ -39,7 +40,8 @@ fn an_island_in_a_cavity() {
     }
 }
 
-/// The hull of the first vertices without any facet, and a tetrahedron all of whose faces are facets; it comes last or first.
+/// The hull of the first vertices without any facet, and a tetrahedron all of whose faces are facets; it comes last or
+/// first.
 fn assert_refused(hull: &[[f64; 3]], others: &[[f64; 3]], apart: [u32; 4]) {
     let points = DoublePoints::new(hull.to_vec());
     let all: Vec<VertexId> = (0..hull.len()).map(VertexId::new).collect();

@@ -25,8 +25,8 @@ fn cubes_are_accepted() {
     }
 }
 
-/// Integers decide only what doubles do not: where coordinates are small integers, at most one sign for each facet, that it is a line
-/// in one projection.
+/// Integers decide only what doubles do not: where coordinates are small integers, at most one sign for each facet,
+/// that it is a line in one projection.
 #[test]
 fn exact_signs_are_counted() {
     let (mut plc, mut mesh) = cube();
@@ -505,8 +505,8 @@ fn lists_are_capped_and_totals_are_not() {
     assert!(text.contains("VIOLATED orientation: 3") && text.ends_with("refused"));
 }
 
-/// A spike pierces four tetrahedra, and the void below them is as large as the spike: the shell of the two encloses as much as
-/// it leaves out, and the hull is filled as far as volumes tell.
+/// A spike pierces four tetrahedra, and the void below them is as large as the spike: the shell of the two encloses as
+/// much as it leaves out, and the hull is filled as far as volumes tell.
 #[test]
 fn a_void_does_not_pay_for_a_spike() {
     let vertices = [
@@ -576,7 +576,8 @@ fn extreme_coordinates_have_a_verdict() {
     }
 }
 
-/// A facet with an edge at right angles to the rest of it, the mesh of which has all edges: what of it is covered cannot be told.
+/// A facet with an edge at right angles to the rest of it, the mesh of which has all edges: what of it is covered
+/// cannot be told.
 #[test]
 fn an_upright_edge_in_a_facet() {
     let (mut plc, mesh) = cube();

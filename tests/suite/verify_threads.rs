@@ -1,5 +1,5 @@
-//! The verifier says the same with any number of threads: violations, their order, and everything that is counted; of meshes
-//! that are accepted, and of broken ones. The meshes are large enough to be shared out.
+//! The verifier says the same with any number of threads: violations, their order, and everything that is counted; of
+//! meshes that are accepted, and of broken ones. The meshes are large enough to be shared out.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -104,8 +104,8 @@ const DAMAGES: [(&str, Damage); 12] = [
     }),
 ];
 
-/// Whether the mesh, and what each damage makes of it, have the same verdict with any number of threads; how many of those were
-/// refused.
+/// Whether the mesh, and what each damage makes of it, have the same verdict with any number of threads; how many of
+/// those were refused.
 fn compare(name: &str, plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> usize {
     assert!(mesh.tets.len() >= 40_000, "{name}: {}", mesh.tets.len());
     let whole = verdict(name, plc, mesh, options);

@@ -1,5 +1,5 @@
-//! `boxes`: what comes out of a modelling program: grids of boxes with some inner walls, and points inside. Every box has
-//! eight cospherical corners.
+//! `boxes`: what comes out of a modelling program: grids of boxes with some inner walls, and points inside. Every box
+//! has eight cospherical corners.
 //!
 //! - `cubes`: a grid of up to 2×2×2 cubes.
 //! - `boxes`: the same with planes at unequal distances, decimal fractions that are rounded to doubles.

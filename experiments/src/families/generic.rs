@@ -1,4 +1,5 @@
-//! `random`: vertices in general position and one polygon through all of them. Nothing is nasty here; it is the control.
+//! `random`: vertices in general position and one polygon through all of them. Nothing is nasty here; it is the
+//! control.
 //!
 //! - `slab`: the scene of Fig. 8, of three thicknesses.
 //! - `hexagon`: a hexagon instead of the rectangle.

@@ -1,12 +1,12 @@
 //! `lattice`: lattice points and a rectangle with corners on the lattice. Doubles hold all products of such small
-//! integers, so that float times are correctly rounded; but many of them are equal, and the order of equal ones is decided by
-//! the perturbation, of which floats know nothing.
+//! integers, so that float times are correctly rounded; but many of them are equal, and the order of equal ones is
+//! decided by the perturbation, of which floats know nothing.
 //!
 //! - `axis`: the rectangle in the plane z = 0, lattice points around it, some of them on its plane.
 //! - `tilted`: in one of several planes with integer normals.
 //! - `layers`: a nearly full lattice of layers, cut in the middle between two.
-//! - `jitter-17` … `jitter-4`: as `axis`, but all vertices except the corners are moved by up to 2·10⁻¹⁷ … 2·10⁻⁴ along each
-//!   axis (what of it is below half an ulp is lost): ties become near ties, and then none.
+//! - `jitter-17` … `jitter-4`: as `axis`, but all vertices except the corners are moved by up to 2·10⁻¹⁷ … 2·10⁻⁴ along
+//!   each axis (what of it is below half an ulp is lost): ties become near ties, and then none.
 
 use super::{Draw, Family, doubles, one_polygon};
 use tetflip::exchange::Plc;

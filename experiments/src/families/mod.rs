@@ -1,5 +1,5 @@
-//! Families of small PLCs on which the order of flips is hard to get right: exact and near ties, extreme shapes, several
-//! polygons. All polygons of all members are exactly flat, so that flips in exact order must succeed.
+//! Families of small PLCs on which the order of flips is hard to get right: exact and near ties, extreme shapes,
+//! several polygons. All polygons of all members are exactly flat, so that flips in exact order must succeed.
 //!
 //! A [`Member`] is named by family, subfamily and seed, and the name gives the same bits everywhere. Its vertices are
 //! in random order, because their order decides the perturbation.

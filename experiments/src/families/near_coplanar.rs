@@ -1,5 +1,5 @@
-//! `near-coplanar`: all vertices within a few ulps, or less, of the polygon's plane. Their rates of growth are tiny and so
-//! are the denominators of all flip times.
+//! `near-coplanar`: all vertices within a few ulps, or less, of the polygon's plane. Their rates of growth are tiny and
+//! so are the denominators of all flip times.
 //!
 //! - `ulps`: a rectangle in z = 0 and vertices with z = ±2⁻⁵², …, ±4·2⁻⁵².
 //! - `mixed`: the same with z from 2⁻⁵² to 1, uniform in the exponent.

@@ -1,5 +1,5 @@
-//! `needles`: extremely anisotropic vertex sets. Determinants are sums of terms of very different sizes, and rounding takes a
-//! large part of the result.
+//! `needles`: extremely anisotropic vertex sets. Determinants are sums of terms of very different sizes, and rounding
+//! takes a large part of the result.
 //!
 //! - `stretched`: general position, one axis stretched by up to 2⁴⁰, another by up to 2²⁰.
 //! - `lattice`: the same with lattice points.

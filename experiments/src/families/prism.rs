@@ -1,20 +1,20 @@
-//! `prism`: the failure case of §3.4, rebuilt. "The PLC includes six vertices at the corners of a rectangular prism, with
-//! all six vertices lying on a common sphere. A seventh vertex inside that sphere, but outside the prism, anchors a set of
-//! tetrahedra that fan out to four of the prism's facets."
+//! `prism`: the failure case of §3.4, rebuilt. "The PLC includes six vertices at the corners of a rectangular prism,
+//! with all six vertices lying on a common sphere. A seventh vertex inside that sphere, but outside the prism, anchors
+//! a set of tetrahedra that fan out to four of the prism's facets."
 //!
-//! Six corners, so the prism is a right one over a triangle; those are cospherical whatever the triangle. The polygon is the one
-//! facet that the seventh vertex sees. While the seventh vertex, the only one on the left, rises, the fan must turn into three
-//! tetrahedra that fill the prism; all of these flips happen when its lifted vertex passes the hyperplane of the six others,
-//! that is at one time, and the perturbation alone puts them in order.
+//! Six corners, so the prism is a right one over a triangle; those are cospherical whatever the triangle. The polygon
+//! is the one facet that the seventh vertex sees. While the seventh vertex, the only one on the left, rises, the fan
+//! must turn into three tetrahedra that fill the prism; all of these flips happen when its lifted vertex passes the
+//! hyperplane of the six others, that is at one time, and the perturbation alone puts them in order.
 //!
-//! - `right`: the polygon is a rectangle in z = 0, the six corners are exactly cospherical: an exact tie, which rounding breaks at
-//!   random.
+//! - `right`: the polygon is a rectangle in z = 0, the six corners are exactly cospherical: an exact tie, which
+//!   rounding breaks at random.
 //! - `rotated`: the same, turned in its plane and moved, rounded to doubles: a near tie.
-//! - `end`: the polygon is a triangular end, the prism is turned in space and moved, rounded: a near tie. (Three vertices are
-//!   always coplanar.)
+//! - `end`: the polygon is a triangular end, the prism is turned in space and moved, rounded: a near tie. (Three
+//!   vertices are always coplanar.)
 //! - `crowded`: as `right`, with up to 40 more vertices outside the sphere.
-//! - `integer`: as `right`, with coordinates that are small integers: the times are computed without any error but that of
-//!   the quotient.
+//! - `integer`: as `right`, with coordinates that are small integers: the times are computed without any error but that
+//!   of the quotient.
 
 use super::{Draw, Family, facet, one_polygon};
 use tetflip::exchange::Plc;
@@ -34,12 +34,12 @@ fn candidate(subfamily: &str, draw: &mut Draw) -> Plc {
     }
 }
 
-/// The failure case: `prism/end:78`, a prism of which the polygon, 4 2 5, is an end, 0 1 3 is the other end, and 6 is the
-/// seventh vertex, with seven tetrahedra from 6 to the rest of the prism's boundary.
+/// The failure case: `prism/end:78`, a prism of which the polygon, 4 2 5, is an end, 0 1 3 is the other end, and 6 is
+/// the seventh vertex, with seven tetrahedra from 6 to the rest of the prism's boundary.
 ///
-/// In exact order three 3-2 flips suffice, one for each side of the prism. With times in `f64` a 2-3 flip that is later than
-/// all of them comes first and makes an edge that turns the diagonal of one side over, so that those of the three sides go around
-/// the prism: Schönhardt's configuration. Nothing else on the queue can be flipped.
+/// In exact order three 3-2 flips suffice, one for each side of the prism. With times in `f64` a 2-3 flip that is later
+/// than all of them comes first and makes an edge that turns the diagonal of one side over, so that those of the three
+/// sides go around the prism: Schönhardt's configuration. Nothing else on the queue can be flipped.
 pub fn paper_failure() -> Plc {
     let vertices = vec![
         [1.3078065480124408, 1.3779478464061732, -0.5394744828808755],

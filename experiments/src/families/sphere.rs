@@ -1,8 +1,8 @@
 //! `sphere`: many vertices on one sphere. All of their insphere determinants are zero, so the Delaunay
 //! tetrahedralization is the perturbation's choice, and so is the order of nearly all flips.
 //!
-//! - `centre`: integer points on a sphere around the origin, exactly cospherical, and a rectangle through the centre that is
-//!   larger than the sphere. No vertex but its corners is in its plane.
+//! - `centre`: integer points on a sphere around the origin, exactly cospherical, and a rectangle through the centre
+//!   that is larger than the sphere. No vertex but its corners is in its plane.
 //! - `cap`: the same, but the plane of the rectangle passes beside the centre.
 //! - `shells`: integer points on two or three concentric spheres.
 //! - `rounded`: random points of the unit sphere, rounded: cospherical but for an ulp or so.

@@ -1,4 +1,5 @@
-//! `walls`: facets that stand on, or hang over, a large one, as in buildings. Flips for the floor must leave the walls alone.
+//! `walls`: facets that stand on, or hang over, a large one, as in buildings. Flips for the floor must leave the walls
+//! alone.
 //!
 //! - `fins`: upright rectangles above and below the floor that do not touch it, inserted before it.
 //! - `standing`: walls that stand on the floor; their lower edges are segments inside it.

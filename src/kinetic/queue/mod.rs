@@ -1,15 +1,16 @@
 //! The priority queue of events, whose order is asked from a [`TimeOrder`], so that a comparison may look at what moves
 //! and compute what it needs. What is moved around is keys and the numbers of events; the events stay where they are.
 //!
-//! Times only go forward, so that the far future need not be in order yet. It is divided into *spans*, each of which begins
-//! at the time of some event. When its turn comes, a span is divided further, if it is long, or else sorted: that is a *run*,
-//! and the beginning of the next span is the *horizon*. Events queued since that are not after the horizon are put into their
-//! places in the run or, while that is long, or keys do not tell about when a time is, into a binary heap.
+//! Times only go forward, so that the far future need not be in order yet. It is divided into *spans*, each of which
+//! begins at the time of some event. When its turn comes, a span is divided further, if it is long, or else sorted:
+//! that is a *run*, and the beginning of the next span is the *horizon*. Events queued since that are not after the
+//! horizon are put into their places in the run or, while that is long, or keys do not tell about when a time is, into
+//! a binary heap.
 //!
-//! An event is put into a span only if its key says for certain that it comes after the beginning, and the beginnings are in
-//! order for certain, so that it also comes after those of all earlier spans; and one leaves the
-//! run or the heap only if its key says for certain that it comes before the horizon; else the horizon moves on. So the
-//! order is that of one heap.
+//! An event is put into a span only if its key says for certain that it comes after the beginning, and the beginnings
+//! are in order for certain, so that it also comes after those of all earlier spans; and one leaves the run or the heap
+//! only if its key says for certain that it comes before the horizon; else the horizon moves on. So the order is that
+//! of one heap.
 
 mod sorting;
 
@@ -117,7 +118,8 @@ impl<O: TimeOrder> EventQueue<O> {
         self.comparisons
     }
 
-    /// The event that comes so many places after the first one of those that are in order already, if there are so many.
+    /// The event that comes so many places after the first one of those that are in order already, if there are so
+    /// many.
     #[inline]
     pub(crate) fn upcoming(&self, places: usize) -> Option<&O::Event> {
         let entry = self.run.get(self.run.len().wrapping_sub(places + 1))?;
@@ -155,8 +157,8 @@ impl<O: TimeOrder> EventQueue<O> {
         }
     }
 
-    /// Puts an entry into its place in the run: where it belongs by what its time is about, unless its neighbours there say
-    /// otherwise.
+    /// Puts an entry into its place in the run: where it belongs by what its time is about, unless its neighbours there
+    /// say otherwise.
     fn insert_in_run(&mut self, order: &mut O, entry: Entry<O::Key>) {
         let time = self.about(entry.key);
         let is_later = |other: &Entry<O::Key>| self.about(other.key) > time;
@@ -322,7 +324,8 @@ impl<O: TimeOrder> EventQueue<O> {
     }
 
     /// Removes the first event of the heap. About log₂ n comparisons: the hole at the top sinks to a leaf along the
-    /// earlier children, and the last event rises from there, usually not far (Floyd's variant; comparisons are what costs).
+    /// earlier children, and the last event rises from there, usually not far (Floyd's variant; comparisons are what
+    /// costs).
     fn pop_heap(&mut self, order: &mut O) -> Option<Entry<O::Key>> {
         let first = self.heap.first().copied()?;
         let last = self.heap.pop().expect("the heap is not empty");

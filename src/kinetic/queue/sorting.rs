@@ -24,8 +24,8 @@ impl<O: TimeOrder> EventQueue<O> {
         self.run = run;
     }
 
-    /// Brings a run into the order of as many buckets as it has entries, which divide its time evenly. `false` if it has no
-    /// times to divide.
+    /// Brings a run into the order of as many buckets as it has entries, which divide its time evenly. `false` if it
+    /// has no times to divide.
     fn distribute(&mut self, run: &mut Vec<Entry<O::Key>>) -> bool {
         if run.len() < 2 {
             return true;

@@ -44,8 +44,8 @@ impl<'a, P: PointStore> Figure<'a, P> {
         number(self.vertices, v)
     }
 
-    /// The edges of the mesh between the vertices that could divide f: those that are no edges of its boundary, do not run
-    /// along segments, and lead into f at both ends.
+    /// The edges of the mesh between the vertices that could divide f: those that are no edges of its boundary, do not
+    /// run along segments, and lead into f at both ends.
     pub(super) fn candidates(
         &self,
         mesh: &TetMesh,

@@ -1,21 +1,23 @@
 //! Polygons that are flat only to rounding (paper, end of §3.1 and of §3.2), dealt with before any polygon is inserted.
 //!
-//! Polygons of four or more vertices in floating point, and polygons with rounded Steiner points on their boundaries, are
-//! not exactly flat. Each is cut into exactly flat pieces along edges that the Delaunay tetrahedralization has (`cut.rs`).
-//! Where edges are missing the polygon gets a Steiner point (`steiner.rs`), and is cut again, until all pieces of all
-//! polygons are flat. As this happens in the Delaunay tetrahedralization, no mesh of a polygon is ever taken back.
+//! Polygons of four or more vertices in floating point, and polygons with rounded Steiner points on their boundaries,
+//! are not exactly flat. Each is cut into exactly flat pieces along edges that the Delaunay tetrahedralization has
+//! (`cut.rs`). Where edges are missing the polygon gets a Steiner point (`steiner.rs`), and is cut again, until all
+//! pieces of all polygons are flat. As this happens in the Delaunay tetrahedralization, no mesh of a polygon is ever
+//! taken back.
 //!
-//! Then every insertion is one of an exactly flat polygon into an edge-protected PLC, and what is proved of those holds:
-//! there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it. It may have shims, which are
-//! repaired on output (`shims`).
+//! Then every insertion is one of an exactly flat polygon into an edge-protected PLC, and what is proved of those
+//! holds: there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it. It may have shims, which
+//! are repaired on output (`shims`).
 //!
-//! After each round of Steiner points only polygons with both ends of an edge that has vanished are looked at, and those
-//! that could not be cut.
+//! After each round of Steiner points only polygons with both ends of an edge that has vanished are looked at, and
+//! those that could not be cut.
 //!
 //! # End
 //! Refinement of nearly flat polygons ends in practice for the same reasons as that of segments; it is bounded by
-//! [`MOST_ROUNDS`] and [`MOST_POINTS`]. Beyond those nothing is inserted, and polygons that cannot be cut are left to the
-//! insertion of polygons as they are, which treats their vertices as if they were on one plane, and may refuse them.
+//! [`MOST_ROUNDS`] and [`MOST_POINTS`]. Beyond those nothing is inserted, and polygons that cannot be cut are left to
+//! the insertion of polygons as they are, which treats their vertices as if they were on one plane, and may refuse
+//! them.
 
 mod cells;
 mod counts;
@@ -65,10 +67,10 @@ struct State<'a> {
     vertices: Vec<VertexId>,
 }
 
-/// On which polygons each vertex is. The pieces of a polygon depend on its vertices and on the edges between them. Edges that
-/// appear have a new vertex, and if that is on a segment, it divides an edge of all polygons that it is on, of which it is
-/// the first new vertex, or which have been found by an earlier one. So a polygon with at most one end of each edge that
-/// vanishes is as it was, unless it gets an inner point.
+/// On which polygons each vertex is. The pieces of a polygon depend on its vertices and on the edges between them.
+/// Edges that appear have a new vertex, and if that is on a segment, it divides an edge of all polygons that it is on,
+/// of which it is the first new vertex, or which have been found by an earlier one. So a polygon with at most one end
+/// of each edge that vanishes is as it was, unless it gets an inner point.
 struct PolygonsAt {
     /// Those of the vertices when the first Steiner point was inserted; polygons keep all vertices that they have.
     before: Groups<u32>,
@@ -166,8 +168,8 @@ pub fn flatten<P: GrowingStore>(
 }
 
 impl State<'_> {
-    /// Cuts those of the given polygons, in ascending order, that are not flat, and returns the Steiner points that they
-    /// want. All polygons that have cells that are not flat must be among them.
+    /// Cuts those of the given polygons, in ascending order, that are not flat, and returns the Steiner points that
+    /// they want. All polygons that have cells that are not flat must be among them.
     fn cut_all<P: PointStore>(
         &mut self,
         points: &P,

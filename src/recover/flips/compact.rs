@@ -1,10 +1,12 @@
-//! A region copied out of the mesh, so that flips find everything close together: what an insertion looks at lies anywhere
-//! in the memory of a large mesh, and its flips jump about in the region in the order of time.
+//! A region copied out of the mesh, so that flips find everything close together: what an insertion looks at lies
+//! anywhere in the memory of a large mesh, and its flips jump about in the region in the order of time.
 //!
-//! The vertices get new ids, first those to the left of f, then those on f, then those to its right, so that a comparison
-//! tells the side; each part in the order in which a breadth-first search of R meets them, and so the tetrahedra. They keep
-//! their identities, so that the flips are those of the region in the mesh. What lies outside of R is stood in for by
-//! *shell* tetrahedra, each for four facets of the boundary: flips glue to their corners what they put behind those facets.
+//! The vertices get new ids, first those to the left of f, then those on f, then those to its right, so that a
+//! comparison tells the side; each part in the order in which a breadth-first search of R meets them, and so the
+//! tetrahedra. They keep their identities, so that the flips are those of the region in the mesh. What lies outside of
+//! R is stood in for by
+//! *shell* tetrahedra, each for four facets of the boundary: flips glue to their corners what they put behind those
+//! facets.
 //!
 //! Time linear in the size of R, there and back.
 
@@ -192,7 +194,8 @@ impl<P: PointStore> Compact<P> {
     }
 }
 
-/// The tetrahedra of R in breadth-first order, and how many facets its boundary has. `places` is told 1 + the place of each.
+/// The tetrahedra of R in breadth-first order, and how many facets its boundary has. `places` is told 1 + the place of
+/// each.
 fn breadth_first(mesh: &TetMesh, region: &Region, places: &mut Table<u32>) -> (Vec<TetId>, usize) {
     places.clear();
     let mut order: Vec<TetId> = Vec::with_capacity(region.tets.len());
@@ -220,8 +223,8 @@ fn breadth_first(mesh: &TetMesh, region: &Region, places: &mut Table<u32>) -> (V
     (order, boundary)
 }
 
-/// The vertices of R and of the frame, left, on and right, in the order in which they are met; how many are left, and how
-/// many are not right. `numbers` is told 1 + the place of each.
+/// The vertices of R and of the frame, left, on and right, in the order in which they are met; how many are left, and
+/// how many are not right. `numbers` is told 1 + the place of each.
 fn by_side<P: PointStore>(
     mesh: &TetMesh,
     sides: &Sides<P>,

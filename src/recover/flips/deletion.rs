@@ -1,11 +1,11 @@
-//! Polygon deletion by bistellar flips: insertion with time running backwards (Shewchuk 2003, "Updating and constructing
-//! constrained Delaunay and constrained regular triangulations by flips"; the proofs are in `paper/theory.tex`, section
-//! "Deletion").
+//! Polygon deletion by bistellar flips: insertion with time running backwards (Shewchuk 2003, "Updating and
+//! constructing constrained Delaunay and constrained regular triangulations by flips"; the proofs are in
+//! `paper/theory.tex`, section "Deletion").
 //!
-//! Under the heights of [`time`](super::time) the CDT with f is right for all large τ, and the CDT without f at τ = 0. On
-//! the way back a triangle that is no constraint must be flipped iff it is not locally Delaunay at 0, so N > 0
-//! (perturbed); then D < 0, as S = N + τ·D is negative now, and its time is −N/D. The greatest time comes first. These are
-//! the flips of the insertion, inverted, in opposite order.
+//! Under the heights of [`time`](super::time) the CDT with f is right for all large τ, and the CDT without f at τ = 0.
+//! On the way back a triangle that is no constraint must be flipped iff it is not locally Delaunay at 0, so N > 0
+//! (perturbed); then D < 0, as S = N + τ·D is negative now, and its time is −N/D. The greatest time comes first. These
+//! are the flips of the insertion, inverted, in opposite order.
 //!
 //! An event carries the *mirrored* circuit (v, y, x, z, w): all its determinants have the opposite sign, N, D and the
 //! coefficients, so that −N/D is the same with the same perturbation, over a positive denominator, as
@@ -105,8 +105,8 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
         }
     }
 
-    /// Deletes the polygon that consists of the triangles opposite the given corners. If that is blocked the mesh has the
-    /// same tetrahedra as before.
+    /// Deletes the polygon that consists of the triangles opposite the given corners. If that is blocked the mesh has
+    /// the same tetrahedra as before.
     pub fn delete(mut self, faces: &[Corner]) -> Deleted {
         let result = self.flip_back(faces).and_then(|()| self.check_delaunay());
         let blocked = result.err();
@@ -164,8 +164,8 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
         Ok(())
     }
 
-    /// Sets the clock to the time of `event`, unless that is already over. (The paper asks when the event is queued; if it
-    /// is too late then, it comes off the queue before any other flip is done.)
+    /// Sets the clock to the time of `event`, unless that is already over. (The paper asks when the event is queued; if
+    /// it is too late then, it comes off the queue before any other flip is done.)
     fn go_back_to(&mut self, event: Event) -> Result<(), Blocked> {
         let due = self.times.time(event.circuit);
         let due = due.expect("only events with a time are queued");
@@ -215,9 +215,9 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
         Ok((flip.kind(), created))
     }
 
-    /// Certifies the triangles on the boundary of the flipped volume, and those in the plane of a 4-4 flip, which is two
-    /// flips at once, one on each side of that plane. (The other inner triangles have been flipped into existence: their
-    /// circuits are that of the event with the opposite sign.)
+    /// Certifies the triangles on the boundary of the flipped volume, and those in the plane of a 4-4 flip, which is
+    /// two flips at once, one on each side of that plane. (The other inner triangles have been flipped into existence:
+    /// their circuits are that of the event with the opposite sign.)
     fn certify_around(&mut self, kind: FlipKind, created: &[TetId]) -> Result<(), Blocked> {
         for c in corners(created) {
             let outer = !created.contains(&self.mesh.neighbor(c));
@@ -232,8 +232,8 @@ impl<'a, P: PointStore, C: FlipTimes> FlipDeletion<'a, P, C> {
         self.created.ids().into_iter().map(TetId).collect()
     }
 
-    /// That every triangle in and around the region is a constraint or locally Delaunay. It is, if all triangles that are
-    /// not in the region were.
+    /// That every triangle in and around the region is a constraint or locally Delaunay. It is, if all triangles that
+    /// are not in the region were.
     fn check_delaunay(&self) -> Result<(), Blocked> {
         let tets = self.created_tets();
         let mut bad = corners(&tets)

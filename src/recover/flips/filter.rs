@@ -1,13 +1,14 @@
 //! N and D of a circuit in floats with error bounds, and exactly where all coordinates are small integers on a grid.
 //!
 //! The evaluation is that of [`pairs`](crate::predicate::pairs) over plain doubles first, with bounds from the largest
-//! differences alone, and where those do not suffice that of [`formula`] over [`Approx`], so its proof of the error bounds
-//! applies; the rates d_v are orient3d determinants, computed once per vertex, of index [`RATE_INDEX`] (difference 1,
-//! product 3, minor 4, product 6, two sums 8). The zero rate of a vertex that does not move fulfils the same bound.
+//! differences alone, and where those do not suffice that of [`formula`] over [`Approx`], so its proof of the error
+//! bounds applies; the rates d_v are orient3d determinants, computed once per vertex, of index [`RATE_INDEX`]
+//! (difference 1, product 3, minor 4, product 6, two sums 8). The zero rate of a vertex that does not move fulfils the
+//! same bound.
 //!
 //! # Bounds from the largest differences
-//! By the proof in [`Approx`] an evaluation errs by at most k·u′·m, where k is an index that depends on the formula and m
-//! the formula over magnitudes. Let X, Y, Z be the largest coordinate differences to the origin, the vertex w of the
+//! By the proof in [`Approx`] an evaluation errs by at most k·u′·m, where k is an index that depends on the formula and
+//! m the formula over magnitudes. Let X, Y, Z be the largest coordinate differences to the origin, the vertex w of the
 //! circuit, R twice the largest magnitude of the rate of any vertex so far, so that it bounds the magnitude of a rate
 //! relative to that of the origin, and L = X² + Y² + Z². Then
 //!
@@ -18,11 +19,11 @@
 //! | D = −Σ c_i·d_i | 20: rate 9, product 18, two sums | 4·6·XYZ·R |
 //! | N, the same for squares | 16: square 5, product 14, two sums | 4·6·XYZ·L |
 //!
-//! The bounds of this kind are used where all coordinates are at most 2^149 in magnitude, so that X, Y and Z are at most
-//! 2^150, and where R is at most 2^450. Nothing overflows then: all is below 2^(450+450+20). Products may underflow, and the
-//! terms T = 2^−1022 of that proof, one for each product, are to be made up for. For c they add up to at most
-//! 9·T·2^150, for D to 40·T·2^(150+450), for N to 200·T·2^450, and k·u′ times that is less than [`FLOOR`] = 2^−450, which is
-//! added to all bounds. The constants are rounded up by 1 %, which pays for the rounding of m.
+//! The bounds of this kind are used where all coordinates are at most 2^149 in magnitude, so that X, Y and Z are at
+//! most 2^150, and where R is at most 2^450. Nothing overflows then: all is below 2^(450+450+20). Products may
+//! underflow, and the terms T = 2^−1022 of that proof, one for each product, are to be made up for. For c they add up
+//! to at most 9·T·2^150, for D to 40·T·2^(150+450), for N to 200·T·2^450, and k·u′ times that is less than [`FLOOR`] =
+//! 2^−450, which is added to all bounds. The constants are rounded up by 1 %, which pays for the rounding of m.
 //!
 //! Where a coordinate is NaN so is D, as each term has each coordinate of its three vertices; then nothing is certain.
 //! (Otherwise the largest of NaN and numbers might be too small for what does not depend on the NaN.)
@@ -39,7 +40,8 @@ use crate::mesh::VertexId;
 use crate::number::{Approx, Sign, Vec3};
 use crate::predicate::{PointStore, formula, pairs};
 
-/// The error index of an orient3d determinant of given doubles; see [`Approx`]. (A frame may have exact Steiner points.)
+/// The error index of an orient3d determinant of given doubles; see [`Approx`]. (A frame may have exact Steiner
+/// points.)
 const RATE_INDEX: u32 = 8;
 
 /// A vertex: position and rate. NaN positions where they are not doubles: then nothing is certain.

@@ -2,8 +2,8 @@
 //!
 //! [`FlipInsertion::insert`] and `certify` are the figure's two procedures, line by line. The order of
 //! the queue is that of a [`FlipTimes`]: rounded quotients as in the paper, with the paper's three patches (§3.3), each
-//! counted; or exact quotients with the perturbation of the weights, which need no patch. The orders that there are stand in
-//! one table, `order.rs`; [`FlipNumbers`] is what one more of the caller's own must do.
+//! counted; or exact quotients with the perturbation of the weights, which need no patch. The orders that there are
+//! stand in one table, `order.rs`; [`FlipNumbers`] is what one more of the caller's own must do.
 //!
 //! Large regions are flipped in a copy (`compact.rs`) if the number type asks for it and nobody observes.
 
@@ -136,7 +136,8 @@ impl<'a, P: PointStore, C: FlipTimes, R: RegionView> FlipInsertion<'a, P, C, R> 
     }
 
     /// FlipInsertPolygon of Fig. 7, for R as it is filled by the given tetrahedra. O(n log n) comparisons for n events.
-    /// Whatever the outcome, the tetrahedra of the view fill R afterwards; whether crossing ones are left is not looked at.
+    /// Whatever the outcome, the tetrahedra of the view fill R afterwards; whether crossing ones are left is not looked
+    /// at.
     pub fn insert(
         mut self,
         tets: impl ExactSizeIterator<Item = TetId>,
@@ -193,8 +194,8 @@ impl<'a, P: PointStore, C: FlipTimes, R: RegionView> FlipInsertion<'a, P, C, R> 
         (outcome, self.counts)
     }
 
-    /// The next event of the queue. What those after it will look at is fetched meanwhile: each place of the memory once it
-    /// is known from the one before.
+    /// The next event of the queue. What those after it will look at is fetched meanwhile: each place of the memory
+    /// once it is known from the one before.
     #[inline]
     fn next_event(&mut self) -> Option<Event> {
         if self.is_large {
@@ -224,11 +225,11 @@ impl<'a, P: PointStore, C: FlipTimes, R: RegionView> FlipInsertion<'a, P, C, R> 
 
     /// Certify of Fig. 7: queues the crossing triangle opposite corner `s` if it must be flipped at some time.
     ///
-    /// In exact order only what is possible now is queued, and a 3-2 or 4-4 flip only once for its edge, `done` being the
-    /// edges of this round. Nothing is lost: as long as the star of the edge stays as it is the flip stays impossible, and
-    /// when it changes, then by a flip that puts a new tetrahedron at the edge. A triangle between that one and an old
-    /// one is then certified; if there is none the whole star is new, and inside of a 2-3 flip, whose circuit has been
-    /// flipped already. The paper queues more, and so do we with rounded times.
+    /// In exact order only what is possible now is queued, and a 3-2 or 4-4 flip only once for its edge, `done` being
+    /// the edges of this round. Nothing is lost: as long as the star of the edge stays as it is the flip stays
+    /// impossible, and when it changes, then by a flip that puts a new tetrahedron at the edge. A triangle between that
+    /// one and an old one is then certified; if there is none the whole star is new, and inside of a 2-3 flip, whose
+    /// circuit has been flipped already. The paper queues more, and so do we with rounded times.
     #[inline(always)]
     fn certify(&mut self, s: Corner, done: &mut Edges) {
         let (mesh, points) = (&*self.mesh, self.points);

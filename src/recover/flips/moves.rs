@@ -47,7 +47,8 @@ impl Flip {
         }
     }
 
-    /// Which facets of each new tetrahedron are on the boundary of the flipped volume, by the bits of the opposite corners.
+    /// Which facets of each new tetrahedron are on the boundary of the flipped volume, by the bits of the opposite
+    /// corners.
     #[inline]
     pub(super) fn outer_facets(&self) -> [u8; 4] {
         match self {
@@ -57,8 +58,8 @@ impl Flip {
         }
     }
 
-    /// The edge that is removed, in ascending order, and for a 4-4 flip the end of the new edge with the smaller id, as an
-    /// edge with four tetrahedra can be flipped in two planes. `None` for 2-3 flips.
+    /// The edge that is removed, in ascending order, and for a 4-4 flip the end of the new edge with the smaller id, as
+    /// an edge with four tetrahedra can be flipped in two planes. `None` for 2-3 flips.
     pub fn edge(&self) -> Option<[VertexId; 3]> {
         match *self {
             Flip::TwoThree(..) => None,
@@ -94,8 +95,8 @@ fn around_new_edge([v, x, y, z, w]: [VertexId; 5]) -> [[VertexId; 4]; 3] {
     [[v, w, y, z], [v, x, w, z], [v, x, y, w]]
 }
 
-/// Whether there is a flip that removes the triangle opposite corner `c`, if no sign is zero: what [`flip_of_triangle`] says,
-/// without a branch.
+/// Whether there is a flip that removes the triangle opposite corner `c`, if no sign is zero: what [`flip_of_triangle`]
+/// says, without a branch.
 #[inline(always)]
 pub(super) fn is_flippable(mesh: &TetMesh, c: Corner, negative: u8) -> bool {
     let twin = mesh.twin(c);
@@ -122,8 +123,8 @@ fn all_signs<P: PointStore>(points: &P, circuit: [VertexId; 5], mut signs: Signs
 /// The flip that removes the triangle xyz opposite corner `c`, between vxyz and wxzy, or `None` if there is none: the
 /// union of the tetrahedra around it is not convex.
 ///
-/// The line vw passes inside the edge opposite x of the triangle iff vwyz, which has w in place of x, is positive. If it
-/// passes inside all three edges: 2-3. If it passes outside of one, that edge is reflex: 3-2, if it has three
+/// The line vw passes inside the edge opposite x of the triangle iff vwyz, which has w in place of x, is positive. If
+/// it passes inside all three edges: 2-3. If it passes outside of one, that edge is reflex: 3-2, if it has three
 /// tetrahedra. If it meets one edge, v, w and the edge are coplanar: 4-4, if it has four tetrahedra.
 ///
 /// `signs` are those of the circuit's coefficients c_x, c_y, c_z, where they are known; c_x = −orient3d(v, w, y, z).
@@ -159,8 +160,8 @@ pub fn flip_of_triangle<P: PointStore>(
     let (behind1, behind2) = (old1.1[slots[i]], behind(old2, r));
     let (t3, t4) = (behind1.tet(), behind2.tet());
     if signs.zero == 0 {
-        // The vertex of the third tetrahedron that is not in the first: one tetrahedron may stand for several that are outside
-        // of a copy of a region.
+        // The vertex of the third tetrahedron that is not in the first: one tetrahedron may stand for several that are
+        // outside of a copy of a region.
         let is_third = t3 == t4 && mesh.vertex(behind1) == w;
         return is_third.then_some(Flip::ThreeTwo([t1, t2, t3], [v, w, p, q, r]));
     }

@@ -20,8 +20,8 @@ pub trait FlipNumbers {
     /// Whether large regions are flipped in a copy, which pays if evaluating a time is cheap.
     const IN_COPY: bool = false;
 
-    /// Whether all predicates are rounded while a region is flipped: sides of the plane, convexity of flips, insphere of the
-    /// second patch. Then points are seen as [`FlipNumbers::view`] says.
+    /// Whether all predicates are rounded while a region is flipped: sides of the plane, convexity of flips, insphere
+    /// of the second patch. Then points are seen as [`FlipNumbers::view`] says.
     const NAIVE: bool = false;
 
     /// Makes the flip times of a region.

@@ -26,8 +26,8 @@ pub enum Fate {
 /// Is told what happens. All methods do nothing by default.
 pub trait FlipObserver {
     /// The insertion of one missing region of a polygon (by its index in [`crate::plc::Complex`]) begins. Left vertices
-    /// are those v of the region's tetrahedra with orient3d(frame, v) > 0; a polygon that is flat only to rounding may be
-    /// tried twice, the second time from behind.
+    /// are those v of the region's tetrahedra with orient3d(frame, v) > 0; a polygon that is flat only to rounding may
+    /// be tried twice, the second time from behind.
     fn begin(&mut self, polygon: usize, frame: [VertexId; 3], region: &[[VertexId; 4]]) {
         let _ = (polygon, frame, region);
     }

@@ -132,8 +132,8 @@ number_types! { rules:
     NaiveWide(bits: Bits) = "naive", Naive, NaiveWideNumbers(bits);
 }
 
-/// In which order the flips of an insertion are done: a number type for their times, and for a rounded one the rules of its
-/// queue (`f64,ties=perturbed,queue=possible`).
+/// In which order the flips of an insertion are done: a number type for their times, and for a rounded one the rules of
+/// its queue (`f64,ties=perturbed,queue=possible`).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct FlipOrder {
     /// The number type.

@@ -1,6 +1,6 @@
 //! The second and the third of the paper's patches for rounded times (§3.3): flips of triangles that are not locally
-//! Delaunay between non-crossing tetrahedra, and flips that were impossible when their time came. (The first one, flips that
-//! would remove a tetrahedron outside of R, is discarding the event.)
+//! Delaunay between non-crossing tetrahedra, and flips that were impossible when their time came. (The first one, flips
+//! that would remove a tetrahedron outside of R, is discarding the event.)
 
 use super::{Fate, FlipInsertion, FlipTimes, Refused, RegionView, Signs, event};
 use crate::mesh::{Corner, TetId};

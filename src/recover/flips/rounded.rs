@@ -16,7 +16,8 @@ use crate::predicate::formula::Lifted;
 pub enum Evaluation {
     /// Every operation rounded, but the sign of D is exact, as in the paper, whose Orient4D is exact in every mode.
     Plain,
-    /// Every operation rounded, and the sign of D is that of the rounded D, right or wrong. The paper does not go as far.
+    /// Every operation rounded, and the sign of D is that of the rounded D, right or wrong. The paper does not go as
+    /// far.
     Naive,
 }
 

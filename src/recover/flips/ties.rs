@@ -19,7 +19,8 @@ pub enum TieRule {
     Arrival,
     /// By the perturbation of the weights, exactly (`perturbed`).
     Perturbed,
-    /// The events of one circuit get one time, that of the first to be evaluated, and come one after the other (`circuit`).
+    /// The events of one circuit get one time, that of the first to be evaluated, and come one after the other
+    /// (`circuit`).
     Circuit,
 }
 
@@ -110,7 +111,8 @@ pub enum FlipTies<'a, P, V> {
     Circuit(OneTime<'a, P, V>),
 }
 
-/// One time for each circuit: the vertices whose coefficients are not zero, ascending, and `INFINITE` in the place of others.
+/// One time for each circuit: the vertices whose coefficients are not zero, ascending, and `INFINITE` in the place of
+/// others.
 pub struct OneTime<'a, P, V> {
     points: &'a P,
     known: FxHashMap<[VertexId; 5], (u32, V)>,

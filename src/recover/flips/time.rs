@@ -11,9 +11,10 @@
 //! is negative while the lifted triangle is locally convex. It is at τ = 0; if D ≤ 0 it stays so for ever (Fig. 7, line
 //! 11); else it must be flipped at τ = −N/D (line 12).
 //!
-//! Under the weights ε_v, N becomes N + Σ ε_v c_v, and D is free of ε: what [`crate::kinetic`] needs for an exact order. There,
-//! t_0 is of degree 11 in the coordinates and t_v of degree 9. If all terms of two events vanish then their circuits are the
-//! same up to a factor, which happens only for two triangles of one 4-to-4 flip: they are one event.
+//! Under the weights ε_v, N becomes N + Σ ε_v c_v, and D is free of ε: what [`crate::kinetic`] needs for an exact
+//! order. There, t_0 is of degree 11 in the coordinates and t_v of degree 9. If all terms of two events vanish then
+//! their circuits are the same up to a factor, which happens only for two triangles of one 4-to-4 flip: they are one
+//! event.
 
 use super::event::{Event, Signs};
 use crate::kinetic::TimeOrder;
@@ -37,10 +38,11 @@ pub trait FlipTimes {
         self.time_across([v, x, y, z], circuit, |_, may_rise| may_rise)
     }
 
-    /// The same for a triangle of the given tetrahedron, vxyz up to an even permutation, on which rounding may depend. Exact
-    /// orders ask, before they compute the quotient, whether the time is of interest, given the signs of c_x, c_y, c_z where
-    /// they are known, and whether D may be positive: if not, the answer must be `false`. (One question for both, because
-    /// neither answer can be foretold, and a branch that is foretold wrongly takes as long as much of the evaluation.)
+    /// The same for a triangle of the given tetrahedron, vxyz up to an even permutation, on which rounding may depend.
+    /// Exact orders ask, before they compute the quotient, whether the time is of interest, given the signs of c_x,
+    /// c_y, c_z where they are known, and whether D may be positive: if not, the answer must be `false`. (One question
+    /// for both, because neither answer can be foretold, and a branch that is foretold wrongly takes as long as much of
+    /// the evaluation.)
     fn time_across(
         &mut self,
         tet: [VertexId; 4],

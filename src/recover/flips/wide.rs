@@ -1,5 +1,5 @@
-//! Rounded times whose number of mantissa bits is known only at run time. A time of any width is kept as its exact value,
-//! so that the insertion is compiled once, and only the polynomials for every width.
+//! Rounded times whose number of mantissa bits is known only at run time. A time of any width is kept as its exact
+//! value, so that the insertion is compiled once, and only the polynomials for every width.
 
 use super::event::Signs;
 use super::motion::PolygonMotion;

@@ -1,22 +1,23 @@
 //! Whether the polygons in the mesh meet as those of a PLC may: in common vertices and segments only.
 //!
-//! Recovery notices intersections only where they are in its way. Others leave no trace in the tetrahedra: a wall whose foot
-//! no floor declares is recovered like any other, and of two polygons that overlap the second takes the triangles of the
-//! first. But the mesh is a simplicial complex, so that polygons made of its triangles intersect in vertices, edges and
-//! triangles of it. A polygon f is as it was given, and meets the others as it may, if
+//! Recovery notices intersections only where they are in its way. Others leave no trace in the tetrahedra: a wall whose
+//! foot no floor declares is recovered like any other, and of two polygons that overlap the second takes the triangles
+//! of the first. But the mesh is a simplicial complex, so that polygons made of its triangles intersect in vertices,
+//! edges and triangles of it. A polygon f is as it was given, and meets the others as it may, if
 //!
-//! - each subsegment that bounds it has as many triangles of f as f is on sides of it, and each other edge of its triangles has
-//!   two: nobody else has taken one;
+//! - each subsegment that bounds it has as many triangles of f as f is on sides of it, and each other edge of its
+//!   triangles has two: nobody else has taken one;
 //! - no other edge of its triangles is a subsegment, or has triangles of another polygon;
 //! - its triangles have no vertices but those of f and Steiner points on its segments.
 //!
 //! Of a polygon that is flat only to rounding each piece counts for itself. A segment, or the foot of a wall, that lies
-//! along one of its cuts without being declared there is therefore not refused. Nothing is lost: where a polygon like that
-//! lies is known only to rounding, the cut is a chain of edges of the mesh, and both constraints are unions of simplices of
-//! it, as if it had been declared. ([`crate::check`] refuses it if its own triangulation of the polygon has that diagonal.)
+//! along one of its cuts without being declared there is therefore not refused. Nothing is lost: where a polygon like
+//! that lies is known only to rounding, the cut is a chain of edges of the mesh, and both constraints are unions of
+//! simplices of it, as if it had been declared. ([`crate::check`] refuses it if its own triangulation of the polygon
+//! has that diagonal.)
 //!
-//! All of it is combinatorial, hence exact. Edges are grouped by their lesser ends: O(n + k) for k triangles on polygons, of
-//! n vertices with few edges each.
+//! All of it is combinatorial, hence exact. Edges are grouped by their lesser ends: O(n + k) for k triangles on
+//! polygons, of n vertices with few edges each.
 
 use crate::error::InvalidPlc;
 use crate::mesh::{Groups, VertexId};
@@ -25,8 +26,8 @@ use crate::recover::segments::{SegmentIndex, Subsegments};
 use crate::recover::subpolygons::Face;
 use crate::recover::subpolygons::Subpolygons;
 
-/// An edge, by its greater end, with a triangle of a polygon at it, or with a side of a polygon that it bounds; as one number,
-/// for sorting.
+/// An edge, by its greater end, with a triangle of a polygon at it, or with a side of a polygon that it bounds; as one
+/// number, for sorting.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Side(u64);
 

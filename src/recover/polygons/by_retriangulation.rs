@@ -1,8 +1,9 @@
 //! Polygon insertion by retriangulating R as a whole: cavities or gift wrapping, and what comes after a refusal.
 //!
-//! Cavity retriangulation, where it is chosen, is tried first, and gift wrapping of the two original cavities where it is
-//! refused. Gift wrapping is refused only if f is not flat or the PLC not valid; then the caller flips. It also flips in
-//! place of a fallback on gift wrapping, whose time is quadratic, in regions of more than [`MOST_WRAPPED`] tetrahedra.
+//! Cavity retriangulation, where it is chosen, is tried first, and gift wrapping of the two original cavities where it
+//! is refused. Gift wrapping is refused only if f is not flat or the PLC not valid; then the caller flips. It also
+//! flips in place of a fallback on gift wrapping, whose time is quadratic, in regions of more than [`MOST_WRAPPED`]
+//! tetrahedra.
 
 use super::{PolygonInsertion, count_shims};
 use crate::clock::Task;

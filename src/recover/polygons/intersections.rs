@@ -1,5 +1,5 @@
-//! What is known of a polygon before anything is done: whether it is a triangle of the mesh already, and whether a segment or
-//! another polygon crosses it, which in a valid PLC none does.
+//! What is known of a polygon before anything is done: whether it is a triangle of the mesh already, and whether a
+//! segment or another polygon crosses it, which in a valid PLC none does.
 
 use super::PolygonInsertion;
 use crate::error::{Failure, InvalidPlc, NotFlatReason};
@@ -13,8 +13,8 @@ use crate::recover::subpolygons::{Face, face};
 const MOST_LOOKS: usize = 40;
 
 impl<P: PointStore> PolygonInsertion<'_, P> {
-    /// The polygon, if it is a triangle of the mesh that no Steiner point divides and that is found soon: what the search
-    /// would find, too, and the common case of surfaces in triangles.
+    /// The polygon, if it is a triangle of the mesh that no Steiner point divides and that is found soon: what the
+    /// search would find, too, and the common case of surfaces in triangles.
     pub(super) fn triangle_in_mesh(&mut self, polygon: &Polygon) -> Option<Face> {
         let &[a, b, c] = polygon.vertices.as_slice() else {
             return None;
@@ -97,8 +97,8 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         Ok(())
     }
 
-    /// `false` if no subsegment is among the crossing edges of the region, and there are so few that one look at each tells:
-    /// the sides of the region's vertices are known, and two of them must differ.
+    /// `false` if no subsegment is among the crossing edges of the region, and there are so few that one look at each
+    /// tells: the sides of the region's vertices are known, and two of them must differ.
     fn may_be_crossed(&self, sides: &Sides<P>, region: &Region) -> bool {
         let few = self.complex.segments.len() + self.subsegments.steiner_count();
         if few > region.tets.len() {

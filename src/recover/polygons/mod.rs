@@ -347,9 +347,9 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             FlipOutcome::Stuck { crossing } => Err(RegionFailure::Stuck(crossing)),
             FlipOutcome::Done => Ok(()),
         };
-        // Exact times on a flat polygon of a valid PLC make the CDT, by proof; what is wrong with an invalid one is found
-        // and named by the next search. Rounded times can leave triangles that are not locally Delaunay, and so can a
-        // polygon that is not flat (paper, end of §3.2).
+        // Exact times on a flat polygon of a valid PLC make the CDT, by proof; what is wrong with an invalid one is
+        // found and named by the next search. Rounded times can leave triangles that are not locally Delaunay, and so
+        // can a polygon that is not flat (paper, end of §3.2).
         let verdict = if flat && flips.is_exact() {
             verdict
         } else {

@@ -22,8 +22,8 @@ pub struct Region {
 }
 
 impl Region {
-    /// Grows R from one of its tetrahedra. f cannot end inside a tetrahedron, because its edges are edges of the mesh, so
-    /// every crossing triangle of a tetrahedron of R leads to another one.
+    /// Grows R from one of its tetrahedra. f cannot end inside a tetrahedron, because its edges are edges of the mesh,
+    /// so every crossing triangle of a tetrahedron of R leads to another one.
     pub fn grow<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, seed: TetId) -> Region {
         Region::with_marks(mesh, sides, seed, Table::default())
     }
@@ -74,8 +74,8 @@ impl Region {
         self.marks.get(t.index())
     }
 
-    /// The crossing triangles between two tetrahedra of R, each once. (If f is flat all of them are; one that is not may
-    /// cut through a facet of the convex hull.)
+    /// The crossing triangles between two tetrahedra of R, each once. (If f is flat all of them are; one that is not
+    /// may cut through a facet of the convex hull.)
     pub fn crossing_triangles<P: PointStore>(
         &self,
         mesh: &TetMesh,

@@ -1,10 +1,10 @@
 //! The boundary of a cavity, the *walls*, found in the Delaunay tetrahedralization D of the cavity's vertices, and what
 //! they enclose.
 //!
-//! A wall is known by its vertices, by the corner of the mesh outside, and, once found, by the corner of D inside of it. So
-//! the tetrahedra of D that the walls enclose are flooded from the walls, each walled facet is recognised by a bit of its
-//! tetrahedron, and the enclosed tetrahedra can be glued to each other as they are in D, and to what is outside: nothing
-//! is looked up by its vertices but the walls.
+//! A wall is known by its vertices, by the corner of the mesh outside, and, once found, by the corner of D inside of
+//! it. So the tetrahedra of D that the walls enclose are flooded from the walls, each walled facet is recognised by a
+//! bit of its tetrahedron, and the enclosed tetrahedra can be glued to each other as they are in D, and to what is
+//! outside: nothing is looked up by its vertices but the walls.
 //!
 //! Complexity: linear in the sizes of the boundary and of D; [`Walls::find_again`] in the degrees of the vertices.
 
@@ -159,8 +159,8 @@ impl Walls {
         missing
     }
 
-    /// Adds the tetrahedra of D that the walls enclose: those reached from their inner sides. `None` if the walls are not all in
-    /// D, or do not enclose anything.
+    /// Adds the tetrahedra of D that the walls enclose: those reached from their inner sides. `None` if the walls are
+    /// not all in D, or do not enclose anything.
     pub fn fill(&self, d: &TetMesh, filled: &mut Filled) -> Option<()> {
         let mut walled = vec![0u8; d.capacity()];
         for wall in self.current() {
@@ -264,8 +264,8 @@ impl Filled {
         }
     }
 
-    /// The tetrahedra of both cavities, and what is across their facets: triangles of f, and others beyond which there are old
-    /// tetrahedra, must be common to both, or `None` is returned.
+    /// The tetrahedra of both cavities, and what is across their facets: triangles of f, and others beyond which there
+    /// are old tetrahedra, must be common to both, or `None` is returned.
     pub fn join(mut self, is_old: &dyn Fn(TetId) -> bool) -> Option<(Vec<[VertexId; 4]>, Gluing)> {
         let mut outside = Vec::with_capacity(self.walls.len());
         let mut open: FxHashMap<Face, Corner> = FxHashMap::default();

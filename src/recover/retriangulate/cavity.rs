@@ -12,16 +12,16 @@
 //!
 //! # The triangulation of f
 //! f's triangles are read off the hull of the right D; the left D must have them. If f is flat they agree, because both
-//! are the canonical Delaunay triangulation of f's vertices in its plane. If f is flat only to rounding, the hull of the
-//! right D takes all *shim* tetrahedra with it, and where the left D disagrees the two sides are incompatible
+//! are the canonical Delaunay triangulation of f's vertices in its plane. If f is flat only to rounding, the hull of
+//! the right D takes all *shim* tetrahedra with it, and where the left D disagrees the two sides are incompatible
 //! (paper, Fig. 4).
 //!
 //! Nothing of the mesh is changed until both triangulations are complete.
 //!
 //! # Complexity
-//! Expected O(n log n) for D, of n vertices, and linear time for the rest: D is searched for the facets of the boundary once
-//! (`Walls`), and after a tetrahedron has been swallowed only for those whose part of D has changed. What is inside is
-//! glued as it is in D.
+//! Expected O(n log n) for D, of n vertices, and linear time for the rest: D is searched for the facets of the boundary
+//! once (`Walls`), and after a tetrahedron has been swallowed only for those whose part of D has changed. What is
+//! inside is glued as it is in D.
 
 use super::Retriangulation;
 use super::boundary::{Filled, Wall, Walls};
@@ -58,7 +58,8 @@ pub struct CavityScratch {
     pub(crate) clock: TaskClock,
 }
 
-/// Retriangulates the region R of f. `is_subpolygon` tells the triangles of polygons that are in the mesh, if there are any.
+/// Retriangulates the region R of f. `is_subpolygon` tells the triangles of polygons that are in the mesh, if there are
+/// any.
 ///
 /// # Errors
 /// [`Refused`]; the mesh is not touched in any case.
@@ -128,8 +129,8 @@ pub fn retriangulate<P: PointStore>(
     })
 }
 
-/// The triangles of polygons between two of the `old` tetrahedra that the `new` ones do not have. Crossing triangles are
-/// known to be of no polygon.
+/// The triangles of polygons between two of the `old` tetrahedra that the `new` ones do not have. Crossing triangles
+/// are known to be of no polygon.
 fn vanishing<P: PointStore>(
     place: Place<P>,
     old: &[TetId],
@@ -239,8 +240,8 @@ struct Cavity<'a, P> {
 }
 
 impl<'a, P: PointStore> Cavity<'a, P> {
-    /// The part of R on one side of f, and D. `vertices` are those there and on f, `walls` are the boundary of R there, and the
-    /// triangles of f if they are known.
+    /// The part of R on one side of f, and D. `vertices` are those there and on f, `walls` are the boundary of R there,
+    /// and the triangles of f if they are known.
     fn new(
         place: Place<'a, P>,
         side: Side,
@@ -271,8 +272,8 @@ impl<'a, P: PointStore> Cavity<'a, P> {
     }
 
     /// The edges that f must close: f's boundary in this region, each directed so that f, seen as part of the cavity's
-    /// outward oriented boundary, has it. A facet that is not part of the cavity's boundary is on the other side, so that
-    /// neither end of its edge is on this one.
+    /// outward oriented boundary, has it. A facet that is not part of the cavity's boundary is on the other side, so
+    /// that neither end of its edge is on this one.
     fn open_edges(&self) -> Vec<[VertexId; 2]> {
         let on_this_side = |&v: &VertexId| self.place.sides.of(v) == self.side;
         let facets = self.walls.current().map(|wall| wall.facet);
@@ -375,8 +376,8 @@ impl<'a, P: PointStore> Cavity<'a, P> {
         of_polygon.all(|wall| wall.has_inside(&self.d.mesh))
     }
 
-    /// The triangles of f: the facets on the hull of D that `border` encloses, oriented outwards, with the corners on their
-    /// inner sides.
+    /// The triangles of f: the facets on the hull of D that `border` encloses, oriented outwards, with the corners on
+    /// their inner sides.
     fn faces_on_hull(
         &self,
         border: &[[VertexId; 2]],

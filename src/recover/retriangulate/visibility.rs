@@ -48,9 +48,9 @@ impl<'a, P: PointStore> Sight<'a, P> {
         }
     }
 
-    /// The same if the segment is in the plane of the wall. Two convex sets in a plane are disjoint iff one of their edges
-    /// lies on a line that separates them. An end of the segment may be on that line, as the segment is open; the wall is
-    /// closed.
+    /// The same if the segment is in the plane of the wall. Two convex sets in a plane are disjoint iff one of their
+    /// edges lies on a line that separates them. An end of the segment may be on that line, as the segment is open; the
+    /// wall is closed.
     fn hides_in_plane(&self, wall: [VertexId; 3], u: VertexId, s: [VertexId; 3]) -> bool {
         let off_plane = s
             .into_iter()

@@ -1,16 +1,17 @@
-//! Which of two ways of placing Steiner points needs fewer of them: both recover the same segments, in step, until that is
-//! clear.
+//! Which of two ways of placing Steiner points needs fewer of them: both recover the same segments, in step, until that
+//! is clear.
 //!
-//! A recovery with k Steiner points and m missing subsegments will need about k + m points at least, its *bound*, since each
-//! missing subsegment is split. (A few come back by themselves.) The bound rises with every subsegment that an insertion
-//! destroys, and tells what is to come long before the number of points does. Both recoveries split the longest subsegments
-//! first, so their bounds are compared whenever both have come down to some length:
+//! A recovery with k Steiner points and m missing subsegments will need about k + m points at least, its *bound*, since
+//! each missing subsegment is split. (A few come back by themselves.) The bound rises with every subsegment that an
+//! insertion destroys, and tells what is to come long before the number of points does. Both recoveries split the
+//! longest subsegments first, so their bounds are compared whenever both have come down to some length:
 //!
 //! - The search for harmless places, which is costly, is given up for good once its bound is behind.
-//! - The rules, which are cheap, wait while their bound is far behind, and go on when the other one has caught up with it.
+//! - The rules, which are cheap, wait while their bound is far behind, and go on when the other one has caught up with
+//!   it.
 //!
-//! So they end with the fewer points of both, unless harmless places would have made up for a bad start. All of it depends
-//! on numbers of points only, hence is deterministic.
+//! So they end with the fewer points of both, unless harmless places would have made up for a bad start. All of it
+//! depends on numbers of points only, hence is deterministic.
 
 use super::recovery::{GoOn, MOST_VERTICES_PER_SEGMENT, Placement, Recovered, SegmentRecovery};
 use crate::error::{Failure, GaveUp};
@@ -22,8 +23,8 @@ const STEP: f64 = 0.95;
 /// Differences of so many points tell nothing.
 const NOISE: usize = 16;
 
-/// Recovers the missing subsegments, with few Steiner points. Those of `points` are then unspecified from the first Steiner
-/// point on.
+/// Recovers the missing subsegments, with few Steiner points. Those of `points` are then unspecified from the first
+/// Steiner point on.
 ///
 /// # Errors
 /// Those of the recovery by the rules.

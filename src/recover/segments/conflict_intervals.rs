@@ -1,15 +1,16 @@
 //! How far circumspheres reach along a subsegment.
 //!
-//! A new vertex at A + u(B − A) has a conflict zone: the tetrahedra whose circumspheres contain it. For each tetrahedron
-//! these u are an interval, between the roots of a quadratic polynomial. So one search for the tetrahedra whose intervals
-//! are not empty tells the conflict zones of all u: an edge vanishes for those u that are in the intervals of all its
-//! tetrahedra, and a vertex is joined to the new one for those that are in the interval of one of its tetrahedra.
+//! A new vertex at A + u(B − A) has a conflict zone: the tetrahedra whose circumspheres contain it. For each
+//! tetrahedron these u are an interval, between the roots of a quadratic polynomial. So one search for the tetrahedra
+//! whose intervals are not empty tells the conflict zones of all u: an edge vanishes for those u that are in the
+//! intervals of all its tetrahedra, and a vertex is joined to the new one for those that are in the interval of one of
+//! its tetrahedra.
 //!
 //! In floats: what they tell is for choosing places, not for deciding.
 //!
-//! With the first corner o of a positive tetrahedron as the origin and its edges e, f, g from there, whose determinant is D,
-//! a point x is inside the circumsphere iff D |x|² − x·G < 0, where G = |e|² f×g + |f|² g×e + |g|² e×f. D and G are kept
-//! for each tetrahedron until it is replaced: most are looked at many times.
+//! With the first corner o of a positive tetrahedron as the origin and its edges e, f, g from there, whose determinant
+//! is D, a point x is inside the circumsphere iff D |x|² − x·G < 0, where G = |e|² f×g + |f|² g×e + |g|² e×f. D and G
+//! are kept for each tetrahedron until it is replaced: most are looked at many times.
 
 use super::inner_edges::inner_edges;
 use crate::machine::prefetch;
@@ -147,9 +148,9 @@ impl Reaches {
         (stamp == self.stamp && place != NOWHERE).then_some(place as usize)
     }
 
-    /// Where new vertices are joined to the end v of ab: from v on as far as the returned interval goes, because a sphere
-    /// through v that is empty shrinks towards v. `seeds` are tetrahedra that ab crosses; if none of them is at v, or too
-    /// many are, everywhere.
+    /// Where new vertices are joined to the end v of ab: from v on as far as the returned interval goes, because a
+    /// sphere through v that is empty shrinks towards v. `seeds` are tetrahedra that ab crosses; if none of them is at
+    /// v, or too many are, everywhere.
     pub(super) fn joined<P: PointStore>(
         &mut self,
         points: &P,

@@ -1,14 +1,14 @@
 //! Places for Steiner points that destroy few other subsegments.
 //!
-//! The place that the rules of [`super::split`] say is taken if it does no harm, that is, if no subsegment is lost in its
-//! conflict zone and both halves of the split one are edges afterwards. If it does, all places that leave both halves are
-//! compared at once ([`super::conflict_intervals`]): the ends of the intervals where some subsegment is lost divide them into cells. Of
-//! the cells in which the fewest are lost, the one nearest to the middle is taken, and in it a place with few bits.
-//! Very narrow cells count: between two segments that are close together there is often only one place that is level with
-//! the points of the other.
+//! The place that the rules of [`super::split`] say is taken if it does no harm, that is, if no subsegment is lost in
+//! its conflict zone and both halves of the split one are edges afterwards. If it does, all places that leave both
+//! halves are compared at once ([`super::conflict_intervals`]): the ends of the intervals where some subsegment is lost
+//! divide them into cells. Of the cells in which the fewest are lost, the one nearest to the middle is taken, and in it
+//! a place with few bits. Very narrow cells count: between two segments that are close together there is often only one
+//! place that is level with the points of the other.
 //!
-//! All of this is a choice only: wherever the point is put, recovery stays correct. So floats do. The search ends because
-//! the effort is bounded (`recovery.rs`).
+//! All of this is a choice only: wherever the point is put, recovery stays correct. So floats do. The search ends
+//! because the effort is bounded (`recovery.rs`).
 
 use super::conflict_intervals::Span;
 use super::recovery::SegmentRecovery;
@@ -26,9 +26,8 @@ const SLACK: f64 = 0.25;
 const MOST_TETS: usize = 1000;
 
 impl<P: GrowingStore> SegmentRecovery<'_, P> {
-    /// The parameter of the best place on the subsegment ab, in the direction of its segment, if it is better than t, which
-    /// the rules say.
-    /// `crossed` are the tetrahedra that the subsegment crosses.
+    /// The parameter of the best place on the subsegment ab, in the direction of its segment, if it is better than t,
+    /// which the rules say. `crossed` are the tetrahedra that the subsegment crosses.
     pub(super) fn less_harmful(
         &mut self,
         ab: [VertexId; 2],
@@ -100,8 +99,8 @@ fn harm(harmful: &[Span], x: f64) -> usize {
     harmful.iter().filter(|s| s[0] < x && x < s[1]).count()
 }
 
-/// Of the cells into which the ends of the harmful intervals divide a range, one that is in the fewest of them, with their
-/// number; of these the one nearest to the middle.
+/// Of the cells into which the ends of the harmful intervals divide a range, one that is in the fewest of them, with
+/// their number; of these the one nearest to the middle.
 fn best_cell(range: Span, harmful: &[Span]) -> Option<(usize, Span)> {
     let inside = |x: &f64| range[0] < *x && *x < range[1];
     let mut ends: Vec<f64> = harmful.iter().flatten().copied().filter(inside).collect();

@@ -12,9 +12,9 @@
 //! Each missing subsegment is split (`split.rs`), the longest first (`recovery.rs`).
 //!
 //! # Thrift
-//! Which points are inserted is a choice. Two ways are tried side by side until it is clear which one needs fewer points
-//! (`best_of_two.rs`): the place that the rules of `split.rs` say, and the place that destroys the fewest other subsegments
-//! (`least_loss.rs`). In the end, points that turn out unnecessary are removed (`prune.rs`).
+//! Which points are inserted is a choice. Two ways are tried side by side until it is clear which one needs fewer
+//! points (`best_of_two.rs`): the place that the rules of `split.rs` say, and the place that destroys the fewest other
+//! subsegments (`least_loss.rs`). In the end, points that turn out unnecessary are removed (`prune.rs`).
 
 mod best_of_two;
 mod conflict_intervals;

@@ -1,9 +1,9 @@
 //! The recovery of missing subsegments, one after the other, with one way of placing Steiner points.
 //!
-//! Each missing subsegment is split, the longest first: then neighbours that are about as long are split alike, and their
-//! points stay level with each other. An insertion can destroy other subsegments, those inside its conflict zone, and no
-//! others; and the halves of what it splits may be missing. So the queue holds the missing subsegments, each once, but for
-//! some that have come back.
+//! Each missing subsegment is split, the longest first: then neighbours that are about as long are split alike, and
+//! their points stay level with each other. An insertion can destroy other subsegments, those inside its conflict zone,
+//! and no others; and the halves of what it splits may be missing. So the queue holds the missing subsegments, each
+//! once, but for some that have come back.
 
 use super::Request;
 use super::conflict_intervals::{Reaches, Span};
@@ -54,8 +54,8 @@ pub(super) enum Placement {
     Harmless,
 }
 
-/// A subsegment to look at: the bits of its length, which are in the order of the lengths, and its ends, in one number, since
-/// a queue compares a lot.
+/// A subsegment to look at: the bits of its length, which are in the order of the lengths, and its ends, in one number,
+/// since a queue compares a lot.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Missing(u128);
 
@@ -137,8 +137,8 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
         self.subsegments.steiner_count() + self.missing.len()
     }
 
-    /// Splits missing subsegments, the longest first, until none of at least this length is missing, or more than `most`
-    /// points will be needed; whether it came to the first end.
+    /// Splits missing subsegments, the longest first, until none of at least this length is missing, or more than
+    /// `most` points will be needed; whether it came to the first end.
     pub(super) fn recover_down_to(&mut self, length: f64, most: usize) -> Result<bool, Failure> {
         while self.longest().is_some_and(|longest| longest >= length) {
             if self.bound() > most {
@@ -339,8 +339,8 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
         true
     }
 
-    /// The subsegments among the edges inside the conflict zone are about to vanish. Others stay, and what is missing stays
-    /// missing.
+    /// The subsegments among the edges inside the conflict zone are about to vanish. Others stay, and what is missing
+    /// stays missing.
     fn queue_lost(&mut self) {
         let mut lost = std::mem::take(&mut self.lost);
         let (mesh, conflicts) = (&self.delaunay.mesh, self.delaunay.conflicts());

@@ -52,8 +52,8 @@ pub fn scout<P: PointStore>(
 /// What a segment passes through. Memory is used again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Crossing {
-    /// The finite tetrahedra from the star of its first end on. Those that it touches only along an edge or a facet may be
-    /// missing: for choosing a reference point, not for deciding.
+    /// The finite tetrahedra from the star of its first end on. Those that it touches only along an edge or a facet may
+    /// be missing: for choosing a reference point, not for deciding.
     pub tets: Vec<TetId>,
     /// Their vertices; some may be named more than once.
     pub vertices: Vec<VertexId>,
@@ -96,8 +96,8 @@ impl Crossing {
         self.vertices.extend(mesh.vertices(first));
     }
 
-    /// Goes from facet to facet as long as ab passes through their interiors: three signs per tetrahedron. Whether it does so
-    /// all along.
+    /// Goes from facet to facet as long as ab passes through their interiors: three signs per tetrahedron. Whether it
+    /// does so all along.
     fn walk<P: PointStore>(
         &mut self,
         points: &P,

@@ -1,8 +1,9 @@
 //! How segments are divided into subsegments by their Steiner points.
 //!
-//! The vertices of a segment are linked from its first end to its second: each Steiner point knows the two next to it, and
-//! each segment the two next to its ends. So a pair of vertices is a subsegment if one names the other, which takes one
-//! look-up, and a division changes four links. Pairs of vertices of the input, and only those, are searched for ([`SegmentIndex`]).
+//! The vertices of a segment are linked from its first end to its second: each Steiner point knows the two next to it,
+//! and each segment the two next to its ends. So a pair of vertices is a subsegment if one names the other, which takes
+//! one look-up, and a division changes four links. Pairs of vertices of the input, and only those, are searched for
+//! ([`SegmentIndex`]).
 
 use super::segment_index::{SegmentIndex, key};
 use crate::mesh::VertexId;
@@ -17,8 +18,8 @@ const ON_SEGMENT: &str = "this Steiner point is on a segment";
 pub struct Subsegments {
     index: SegmentIndex,
     segments: Vec<Chain>,
-    /// For each Steiner point the vertices before and after it on its segment; twice the vertex at infinity if it lies on
-    /// a polygon. Indexed from `first_steiner`, like `places`.
+    /// For each Steiner point the vertices before and after it on its segment; twice the vertex at infinity if it lies
+    /// on a polygon. Indexed from `first_steiner`, like `places`.
     around: Vec<[VertexId; 2]>,
     /// For each Steiner point, the segment it lies on and its parameter there, or `None` if it lies on a polygon.
     places: Vec<Option<(u32, Parameter)>>,
@@ -127,8 +128,8 @@ impl Subsegments {
         })
     }
 
-    /// Appends the directed subsegments that bound a polygon, edge by edge. An edge that is no segment of the input is there
-    /// itself: it is an edge of a polygon that has been cut.
+    /// Appends the directed subsegments that bound a polygon, edge by edge. An edge that is no segment of the input is
+    /// there itself: it is an edge of a polygon that has been cut.
     pub(crate) fn append_boundary(
         &self,
         index: &SegmentIndex,

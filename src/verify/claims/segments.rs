@@ -232,8 +232,8 @@ fn is_mergeable(case: &Case, e: usize) -> bool {
     )
 }
 
-/// The facets around an edge, if all of them are exactly coplanar and the markers of those on both sides are the same: an
-/// edge of one facet inside another one, or of several that overlap.
+/// The facets around an edge, if all of them are exactly coplanar and the markers of those on both sides are the same:
+/// an edge of one facet inside another one, or of several that overlap.
 fn absorbed(case: &Case, e: usize) -> Option<Vec<usize>> {
     let edge = &case.input.edges[e];
     let first = *edge.facets.first().filter(|_| !edge.explicit)?;

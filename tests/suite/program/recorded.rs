@@ -1,7 +1,7 @@
 //! The meshes of generated models are the recorded ones, byte by byte, by every method of insertion.
 //!
-//! `recorded.csv` has one row a model, method and file: a hash of the file. A change of what is written is recorded in a
-//! commit of its own, which says why: the test leaves the new table in the directory that it names.
+//! `recorded.csv` has one row a model, method and file: a hash of the file. A change of what is written is recorded in
+//! a commit of its own, which says why: the test leaves the new table in the directory that it names.
 
 use super::place::Place;
 use std::hash::Hasher;

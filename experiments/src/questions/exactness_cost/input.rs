@@ -1,18 +1,19 @@
 //! The inputs: one rectangle, cutting entirely through a set of vertices that is in general position, or that is not at
 //! all.
 //!
-//! All but `slab` have vertices strictly inside the four planes through the edges of the rectangle that are orthogonal to
-//! it, so that these edges are on the convex hull and need no Steiner points; vertices on the rectangle are left out. Seeds
-//! number the vertices at random, which decides the perturbation, and move lattices by integers.
+//! All but `slab` have vertices strictly inside the four planes through the edges of the rectangle that are orthogonal
+//! to it, so that these edges are on the convex hull and need no Steiner points; vertices on the rectangle are left
+//! out. Seeds number the vertices at random, which decides the perturbation, and move lattices by integers.
 //!
 //! - `slab`: random vertices near the rectangle, the scene of the paper's Fig. 8.
 //! - `lattice/…`: the points with even coordinates that are at most 4 away from the rectangle. It lies `between` two
-//!   layers (z = 1), in the place of one that is left out (`through`: z = 0), or in the plane x − 2y + 5z = 1 (`tilted`).
-//!   Each cube of eight points is cospherical, so most flip times are equal.
-//! - `tenths/…`: coordinates k/10, rounded to doubles, instead of k. What was equal differs by rounding errors then, and no
-//!   small grid holds the coordinates. `between`, `through`, and `diagonal`: in the place of the points with x = y. (A
-//!   rectangle with rounded corners in the tilted plane would not be flat.)
-//! - `sphere`: integer points p with |p|² = 250 001, and a rectangle through the centre: every insphere determinant is 0.
+//!   layers (z = 1), in the place of one that is left out (`through`: z = 0), or in the plane x − 2y + 5z = 1
+//!   (`tilted`). Each cube of eight points is cospherical, so most flip times are equal.
+//! - `tenths/…`: coordinates k/10, rounded to doubles, instead of k. What was equal differs by rounding errors then,
+//!   and no small grid holds the coordinates. `between`, `through`, and `diagonal`: in the place of the points with x =
+//!   y. (A rectangle with rounded corners in the tilted plane would not be flat.)
+//! - `sphere`: integer points p with |p|² = 250 001, and a rectangle through the centre: every insphere determinant is
+//!   0.
 
 use crate::families::Draw;
 use crate::inputs::slab::Slab;

@@ -1,8 +1,8 @@
 //! The price of exactness.
 //!
-//! **Question.** What do exact flip times cost, relative to the paper's rounded ones, on vertices in general position and on
-//! those that make nearly every comparison a tie? How often do float enclosures decide, how often exact quotients, how
-//! often the perturbation? How do flips compare with cavity retriangulation and with gift wrapping?
+//! **Question.** What do exact flip times cost, relative to the paper's rounded ones, on vertices in general position
+//! and on those that make nearly every comparison a tie? How often do float enclosures decide, how often exact
+//! quotients, how often the perturbation? How do flips compare with cavity retriangulation and with gift wrapping?
 //!
 //! **Inputs.** One rectangle through a random slab, through lattices, or through a sphere of integer points
 //! ([`input`]), with 100 to 100 000 crossing tetrahedra. A row is the insertion of the rectangle by one method.
@@ -12,7 +12,8 @@
 //! rounded times can fail; its time, which includes the undoing, still counts.
 //!
 //! **Expected.** All but rounded flips always succeed; every success is verified and all of one input are the same mesh
-//! ([`row::expectations`]), asserted at the end. The project's targets for times are reported as reached or missed, not asserted.
+//! ([`row::expectations`]), asserted at the end. The project's targets for times are reported as reached or missed, not
+//! asserted.
 
 mod input;
 mod measure;

@@ -1,15 +1,16 @@
 //! The failures of rounded flips, to look at.
 //!
-//! **Question.** What do flips with rounded times leave behind when they get stuck, in the smallest cases, and in the failure
-//! case of the paper's §3.4?
+//! **Question.** What do flips with rounded times leave behind when they get stuck, in the smallest cases, and in the
+//! failure case of the paper's §3.4?
 //!
-//! **Inputs.** The families of `flip_order`; of each and each number type the smallest input on which flips get stuck, of a
-//! number of seeds. And `prism/end:78`, the paper's failure case rebuilt ([`crate::families::prism::paper_failure`]).
+//! **Inputs.** The families of `flip_order`; of each and each number type the smallest input on which flips get stuck,
+//! of a number of seeds. And `prism/end:78`, the paper's failure case rebuilt
+//! ([`crate::families::prism::paper_failure`]).
 //!
 //! **Columns.** [`Row`]; the README of this package has their meaning.
 //!
-//! **Expected.** The paper's case ends in Schönhardt's polyhedron, and flips in exact order succeed on all inputs of the
-//! gallery.
+//! **Expected.** The paper's case ends in Schönhardt's polyhedron, and flips in exact order succeed on all inputs of
+//! the gallery.
 
 mod draw;
 mod search;

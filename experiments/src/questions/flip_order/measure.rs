@@ -16,7 +16,8 @@ use tetflip::verify::{Domain, VerifyOptions, verify};
 /// The tetrahedra of a mesh, by their vertices, in an order that depends on them alone.
 pub type Tets = Vec<[VertexId; 4]>;
 
-/// The word for a run that ended in other tetrahedra than those of the exact order, without noticing. There should be none.
+/// The word for a run that ended in other tetrahedra than those of the exact order, without noticing. There should be
+/// none.
 pub const DIFFERENT: &str = "different";
 
 /// The insertion of all polygons of one input with one number type.
@@ -153,8 +154,8 @@ pub fn run(cdt: &Cdt, times: FlipOrder, expected: Option<&Tets>) -> Run {
     }
 }
 
-/// The exact and independent verdict on the exact result: the CDT in the convex hull. Nothing is forgiven, unless rounded
-/// Steiner points need it.
+/// The exact and independent verdict on the exact result: the CDT in the convex hull. Nothing is forgiven, unless
+/// rounded Steiner points need it.
 fn is_cdt(prepared: &Prepared) -> bool {
     let (mut cdt, mut report) = (prepared.cdt.clone(), Report::default());
     let insertion = Insertion::Flip(FlipOrder::EXACT);

@@ -1,16 +1,16 @@
 //! The order of flips, rounded and exact (§3.3 and the failure case of §3.4).
 //!
 //! **Question.** How often do flips come off the queue in the wrong order when their times are rounded, what do the
-//! paper's three patches make of it, how often does the insertion fail, and what is left then? Does the exact order, with the
-//! perturbation, always succeed?
+//! paper's three patches make of it, how often does the insertion fail, and what is left then? Does the exact order,
+//! with the perturbation, always succeed?
 //!
 //! **Inputs.** Small PLCs of nine families ([`crate::families`]) that make ties, near ties and large rounding
 //! errors; every polygon is exactly flat.
 //!
 //! **Columns.** [`row::Summary`], [`row::FailureRow`]; the README of this package has their meaning.
 //!
-//! **Expected.** Every exact number type succeeds on every input, without a patch and without an inversion, and ends in the
-//! tetrahedra of cavity retriangulation ([`expect`]). Rounded times may fail. Asserted at the end.
+//! **Expected.** Every exact number type succeeds on every input, without a patch and without an inversion, and ends in
+//! the tetrahedra of cavity retriangulation ([`expect`]). Rounded times may fail. Asserted at the end.
 
 mod expect;
 pub mod measure;
@@ -99,8 +99,8 @@ impl Experiment for FlipOrder {
     }
 }
 
-/// The failure rate of rounded times against their precision, by family. Families without a failure at some precision have no point
-/// there, because the axes are logarithmic.
+/// The failure rate of rounded times against their precision, by family. Families without a failure at some precision
+/// have no point there, because the axes are logarithmic.
 fn precision(rows: &[Summary]) -> Result<String, PlotError> {
     let series = FAMILIES.iter().map(|family| {
         let of_family = rows

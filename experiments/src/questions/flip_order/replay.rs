@@ -9,8 +9,8 @@ use tetflip::predicate::PointStore;
 use tetflip::recover::flips::Fate;
 use tetflip::recover::polygons::FlipOrder;
 
-/// What happens when the polygons of a member are inserted with the given number type: all events that came off the queue
-/// alive, each with its rank in the exact order, and the end.
+/// What happens when the polygons of a member are inserted with the given number type: all events that came off the
+/// queue alive, each with its rank in the exact order, and the end.
 pub fn replay(member: Member, times: FlipOrder) -> String {
     let Prepared {
         plc,

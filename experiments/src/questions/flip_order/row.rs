@@ -125,7 +125,8 @@ impl Summary {
     }
 }
 
-/// All rows: for each family first `all`, then its subfamilies; for each of them the number types in the order of the plan.
+/// All rows: for each family first `all`, then its subfamilies; for each of them the number types in the order of the
+/// plan.
 pub fn summaries(inputs: &[Measured], plan: &Plan) -> Vec<Summary> {
     let mut rows = Vec::new();
     for family in &FAMILIES {
@@ -190,8 +191,8 @@ pub struct FailureRow {
     pub crossing_tets: u64,
     /// The kind of failure.
     pub outcome: &'static str,
-    /// How much is wrong then: crossing tetrahedra, faces that are not locally Delaunay, inverted tetrahedra, or displaced
-    /// triangles.
+    /// How much is wrong then: crossing tetrahedra, faces that are not locally Delaunay, inverted tetrahedra, or
+    /// displaced triangles.
     pub left: usize,
     /// The worst class of what a stuck run left.
     pub class: &'static str,

@@ -1,27 +1,28 @@
 //! Shims of the domain, repaired where a flip does it (paper, end of §3.1 and of §3.2).
 //!
-//! A *shim* is a tetrahedron with all four vertices on one polygon f that had to be cut. The edges of f's pieces are edges
-//! of the Delaunay tetrahedralization, and that leaves little to repair inside the domain:
+//! A *shim* is a tetrahedron with all four vertices on one polygon f that had to be cut. The edges of f's pieces are
+//! edges of the Delaunay tetrahedralization, and that leaves little to repair inside the domain:
 //!
-//! *Let ab and cd be edges of a Delaunay tetrahedralization that cross in projection, abcd a tetrahedron, and p a vertex
-//! beyond the two faces of abcd at ab, or those at cd, and beyond no other. Then p is not in the circumsphere of abcd.* For
-//! otherwise the Delaunay tetrahedralization of these five points would be the one without that edge; but an edge that is
-//! Delaunay is so among any of the vertices that it belongs to. So whichever side of abcd the surface of f runs along, a
-//! flip that removes abcd makes a face that is not locally Delaunay, but for ties, five points exactly on one sphere: abcd
-//! "genuinely belongs in the CDT", and only a Steiner point would remove it. What can be done without is this.
+//! *Let ab and cd be edges of a Delaunay tetrahedralization that cross in projection, abcd a tetrahedron, and p a
+//! vertex beyond the two faces of abcd at ab, or those at cd, and beyond no other. Then p is not in the circumsphere of
+//! abcd.* For otherwise the Delaunay tetrahedralization of these five points would be the one without that edge; but an
+//! edge that is Delaunay is so among any of the vertices that it belongs to. So whichever side of abcd the surface of f
+//! runs along, a flip that removes abcd makes a face that is not locally Delaunay, but for ties, five points exactly on
+//! one sphere: abcd "genuinely belongs in the CDT", and only a Steiner point would remove it. What can be done without
+//! is this.
 //!
 //! - *2-2.* Where the domain is on one side of f only, the choice between ab and cd is free: with a shim next to the
-//!   outside the surface of f runs along the wrong side of it. It is moved to the other side, and the shim is outside. No
-//!   tetrahedron that is kept changes, so all their other faces are locally Delaunay as before.
+//!   outside the surface of f runs along the wrong side of it. It is moved to the other side, and the shim is outside.
+//!   No tetrahedron that is kept changes, so all their other faces are locally Delaunay as before.
 //! - *3-2 and 4-4*, of an edge of the shim, with the surface of f moved along: accepted if all new tetrahedra
-//!   are positive, and all faces on no polygon are locally Delaunay (without perturbation) afterwards: exact tests before
-//!   anything changes.
+//!   are positive, and all faces on no polygon are locally Delaunay (without perturbation) afterwards: exact tests
+//!   before anything changes.
 //!
-//! What remains is reported. The moved surface is one to one in projection, has the same boundary, and loses no segment.
-//! Shims are tried in the order of their vertices, so that equal meshes are repaired equally.
+//! What remains is reported. The moved surface is one to one in projection, has the same boundary, and loses no
+//! segment. Shims are tried in the order of their vertices, so that equal meshes are repaired equally.
 //!
-//! The repair is of what is written, not of the tetrahedralization in which polygons are inserted and deleted. Linear time,
-//! but for the degrees of edges of shims.
+//! The repair is of what is written, not of the tetrahedralization in which polygons are inserted and deleted. Linear
+//! time, but for the degrees of edges of shims.
 
 mod edge_flip;
 
@@ -246,8 +247,9 @@ mod tests {
     use crate::recover::subpolygons::Face;
     use std::sync::Arc;
 
-    /// A quadrilateral 0123 that is not flat, 4 exactly on the circumsphere of its corners, 5 beyond it on the other side.
-    /// Of the two triangulations of 01234 the perturbation prefers the one with the shim 0123; a 3-2 flip removes it.
+    /// A quadrilateral 0123 that is not flat, 4 exactly on the circumsphere of its corners, 5 beyond it on the other
+    /// side. Of the two triangulations of 01234 the perturbation prefers the one with the shim 0123; a 3-2 flip removes
+    /// it.
     #[test]
     fn a_flip_removes_a_shim_on_one_sphere() {
         let e = 2f64.powi(-48);
