@@ -39,8 +39,8 @@ const SLACK: f64 = 0.05;
 ///    base angles), so this ends. No bits are saved here: equal distances must be equal up to rounding, or each segment
 ///    of a fan has to be split again a little beside the points of each other.
 /// 2. If there already is a point at that distance, and the segment has many: at a distance from the hub that is a
-/// short dyadic number in absolute units, so that all segments of a fan are split on the same spheres. Not at once,
-/// because strips of long triangles, which are no fans, are split best in the middle.
+///    short dyadic number in absolute units, so that all segments of a fan are split on the same spheres. Not at once,
+///    because strips of long triangles, which are no fans, are split best in the middle.
 /// 3. Otherwise the reference point's projection onto the subsegment, or the middle if that is too close to an end.
 pub fn split_parameter(s: &Subsegment, reference: Option<Reference>) -> Option<f64> {
     let [t0, t1] = s.range;
