@@ -20,7 +20,7 @@ pub enum TopologyError {
 }
 
 impl TetMesh {
-    /// Checks the invariants of [`topology`](super::topology): twins, vertices, and that nothing is open. Linear time.
+    /// Checks the invariants of the adjacency: twins, vertices, and that nothing is open. Linear time.
     ///
     /// # Errors
     /// The first violation, in order of id.

@@ -32,7 +32,7 @@ pub struct Polygon {
     pub frame: [VertexId; 3],
     /// Whether all vertices of f lie exactly on the plane of the frame.
     pub flat: bool,
-    /// The input facets that f consists of, by index in [`super::Plc::facets`].
+    /// The input facets that f consists of, by index in [`crate::exchange::Plc::facets`].
     pub facets: Vec<usize>,
     /// The marker of those facets, which is the same for all of them.
     pub marker: i64,

@@ -16,7 +16,7 @@ use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 use tetflip::verify::{Domain, VerifyOptions, verify};
 
-/// Does what the word says with a file, and prints what [`super::measure`] reads.
+/// Does what the word says with a file, and prints what `measure` reads.
 ///
 /// # Errors
 /// If the word is unknown, or the file has no CDT.

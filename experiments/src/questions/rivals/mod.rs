@@ -6,7 +6,7 @@
 //! **Inputs.** Point sets ([`crate::inputs::points`]), generated models, the scenes of `fig9`, and models of the user's
 //! ([`plan`]). A row is one program on one input; all programs take turns on an input, each in a process of its own.
 //!
-//! **Columns.** [`row::Row`], [`row::Target`]; the README of this package has their meaning. Seconds are processor
+//! **Columns.** [`row::Row`], `row::Target`; the README of this package has their meaning. Seconds are processor
 //! time, as all programs tell it of themselves, of the algorithm alone: reading and writing files is left out.
 //!
 //! **Expected.** We succeed on every input, and on points in general position all programs give the same number of
