@@ -27,6 +27,7 @@ fn verdict(name: &str, plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -
 fn meshed(plc: &Plc, steiner: Steiner) -> ExportedMesh {
     let options = Options {
         steiner,
+        keep_hull: plc.facets.is_empty(),
         ..Options::default()
     };
     let mesh = tetrahedralize(plc, &options, &mut Report::default(), &mut |_| {});
