@@ -1,7 +1,7 @@
 //! What a file is by its first bytes, whatever its name: for messages alone.
 
-use super::error::{FormatError, Place, Reason};
-use super::text::Text;
+use super::error::{FilePosition, FormatError, Reason};
+use super::text::{Syntax, Text};
 
 /// Refuses files that no reader here can read but that are well known by their first bytes.
 pub(super) fn refuse_packed(bytes: &[u8]) -> Result<(), FormatError> {
@@ -20,7 +20,7 @@ pub(super) fn refuse_packed(bytes: &[u8]) -> Result<(), FormatError> {
         None => return Ok(()),
     };
     Err(FormatError::Malformed {
-        place: Place::Byte(0),
+        at: FilePosition::Byte(0),
         reason,
     })
 }
@@ -52,7 +52,7 @@ pub(super) fn looks_like(bytes: &[u8]) -> Option<(Option<&'static str>, &'static
     if bytes.starts_with(b"\x01\0\0\0") || bytes.starts_with(b"\0\0\0\x01") {
         return Some((Some("mesh"), "a binary Medit file"));
     }
-    let mut text = Text::new(bytes, true);
+    let mut text = Text::new(bytes, Syntax::Hash);
     text.advance();
     let word = text.token()?.to_ascii_lowercase();
     Some(match &word[..] {

@@ -17,7 +17,8 @@
 use super::ahead::{Rows, read_ahead};
 use super::lines::{Lines, write_lines};
 use super::mesh_file::Shortest;
-use super::text::{Text, whole};
+use super::numerals::whole;
+use super::text::{Syntax, Text};
 use super::vertices::Vertices;
 use super::{MeshFileError, MeshLineError, sibling};
 use crate::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
@@ -168,7 +169,13 @@ fn read_node(source: &Source) -> Result<(u32, Vec<[f64; 3]>), MeshFileError> {
         vertices.push(found, point);
         Ok(())
     })?;
-    Ok((vertices.first_index(), vertices.points))
+    // Only numbers that follow one another were let in.
+    let first = vertices.first_index().ok_or_else(|| MeshFileError::Line {
+        path: source.path.clone(),
+        line: 1,
+        reason: MeshLineError::TooManyVertices(vertices.points.len()),
+    })?;
+    Ok((first, vertices.points))
 }
 
 /// Tetrahedra and their last attributes, if they have any.
@@ -334,7 +341,7 @@ impl Source {
             line,
             reason,
         };
-        let mut text = Text::new(&self.bytes, true);
+        let mut text = Text::new(&self.bytes, Syntax::Hash);
         if !text.advance() {
             return Err(at(1, MeshLineError::NoHeader));
         }

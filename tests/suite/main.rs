@@ -10,6 +10,7 @@ mod deletion;
 mod exact_steiner;
 mod examples;
 mod fixtures;
+mod forgiven;
 mod format;
 mod fuzz_formats;
 mod fuzz_pipeline;
