@@ -1,10 +1,11 @@
 //! Many rows of a text file, read by all threads: the file is cut at line ends, and the pieces are read at once.
 //!
-//! Each format has one function that reads a row, and a loop that calls it for one row after the other. Before the loop,
-//! [`read_ahead`] lets threads call it for whole pieces, as if each began with a row, and takes what they read in the order
-//! of the file, as long as every piece began where the one before it had ended cleanly. It stops before the first piece in which
-//! anything is wrong, or with which there would not be too few rows, and the loop goes on from there. So rows, notes and errors, with
-//! their lines, are those of the loop alone, whatever the number of threads.
+//! Each format has one function that reads a row, and a loop that calls it for one row after the other. Before the
+//! loop, [`read_ahead`] lets threads call it for whole pieces, as if each began with a row, and takes what they read
+//! in the order of the file, as long as every piece began where the one before it had ended cleanly. It stops before
+//! the first piece in which anything is wrong, or with which there would not be too few rows, and the loop goes on
+//! from there. So rows, notes and errors, with their lines, are those of the loop alone, whatever the number of
+//! threads.
 
 use super::text::Text;
 use rayon::prelude::*;

@@ -1,10 +1,11 @@
-//! What a check found, for ParaView (`.vtu`): the facets, segments and vertices in question as triangles, lines and points.
+//! What a check found, for ParaView (`.vtu`): the facets, segments and vertices in question as triangles, lines and
+//! points.
 //!
-//! Every conflict writes both of its parts and the point of the intersection, so a facet with several conflicts is there
-//! several times. Cell data: `pair` (the number of the conflict in the list, from 0; −1 for what is wrong for itself),
-//! `kind` (0 same facet, 1 facets overlap, 2 facets cross, 3 edge in facet, 4 edges overlap, 5 edge through facet,
-//! 6 vertex in facet, 7 edges cross, 8 vertex on edge, 9 wrong for itself), `role` (0 and 1 for the two parts, 2 for the
-//! point) and `facet` (its number as in messages, −1 for what is none).
+//! Every conflict writes both of its parts and the point of the intersection, so a facet with several conflicts is
+//! there several times. Cell data: `pair` (the number of the conflict in the list, from 0; −1 for what is wrong for
+//! itself), `kind` (0 same facet, 1 facets overlap, 2 facets cross, 3 edge in facet, 4 edges overlap, 5 edge through
+//! facet, 6 vertex in facet, 7 edges cross, 8 vertex on edge, 9 wrong for itself), `role` (0 and 1 for the two parts,
+//! 2 for the point) and `facet` (its number as in messages, −1 for what is none).
 
 use super::MeshFileError;
 use super::mesh_file::stage;
@@ -16,8 +17,8 @@ use rustc_hash::FxHashMap;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes the parts that are in conflict, and the facets that are wrong for themselves, for ParaView. The file is written
-/// whole or not at all.
+/// Writes the parts that are in conflict, and the facets that are wrong for themselves, for ParaView. The file is
+/// written whole or not at all.
 ///
 /// # Errors
 /// If it cannot be written.

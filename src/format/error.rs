@@ -19,6 +19,9 @@ pub enum FormatError {
         "unknown file extension {0:?}: expected .poly, .smesh, .node, .off, .stl, .ply, .obj or .mesh"
     )]
     UnknownExtension(String),
+    /// The list of vertices is empty, which refers to a `.node` file beside the file; but there is only one file.
+    #[error("the vertices are in a .node file, which can only be found beside a file with a name")]
+    NodesElsewhere,
     /// The file itself is wrong.
     #[error("{at}: {reason}")]
     Malformed {

@@ -1,8 +1,8 @@
 //! Names that a file gives to what follows, in turn: objects, groups and materials. They become markers.
 //!
-//! Facets and segments with the same object, group and material have the same marker: 1, 2, … in the order in which such
-//! three first have a facet or segment; 0 where none is named. If all facets and segments have the same three names,
-//! nothing tells them apart, and all markers are 0.
+//! Facets and segments with the same object, group and material have the same marker: 1, 2, … in the order in which
+//! such three first have a facet or segment; 0 where none is named. If all facets and segments have the same three
+//! names, nothing tells them apart, and all markers are 0.
 
 use crate::exchange::Plc;
 use rustc_hash::FxHashMap;

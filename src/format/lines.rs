@@ -1,5 +1,5 @@
-//! Many lines of numbers to a file: formatted in blocks by all threads, written in order. The bytes are the same with any
-//! number of threads.
+//! Many lines of numbers to a file: formatted in blocks by all threads, written in order. The bytes are the same with
+//! any number of threads.
 
 use super::mesh_file::Shortest;
 use rayon::prelude::*;

@@ -1,14 +1,14 @@
 //! Medit's ASCII files, `.mesh` (Frey, *MEDIT: An interactive mesh visualization software*, INRIA RT-0253, 2001).
 //!
-//! Read are `Vertices`, `Triangles`, `Quadrilaterals` and `Edges`; their references become markers. What
-//! says nothing about the shape (corners, ridges, normals, …) is skipped by its number of words, each of which must be a
-//! number. Words are separated by any blanks; vertices count from 1. The binary variant, `.meshb`, is refused.
+//! Read are `Vertices`, `Triangles`, `Quadrilaterals` and `Edges`; their references become markers. What says nothing
+//! about the shape (corners, ridges, normals, …) is skipped by its number of words, each of which must be a number.
+//! Words are separated by any blanks; vertices count from 1. The binary variant, `.meshb`, is refused.
 //!
 //! Forgiven: a version of 0 or above 4; a missing `End`, and what follows it; sections with unknown keywords, such as
-//! bamg's, which are skipped up to the next word that begins with a letter and is not in quotation marks; tetrahedra and
-//! other solids, if their surface is in the file. An error are a section that is shorter or longer than its number says,
-//! vertices without `Dimension 3` before them, elements before the vertices, and a file whose facets are all in sections
-//! that are not read.
+//! bamg's, which are skipped up to the next word that begins with a letter and is not in quotation marks; tetrahedra
+//! and other solids, if their surface is in the file. An error are a section that is shorter or longer than its
+//! number says, vertices without `Dimension 3` before them, elements before the vertices, and a file whose facets are
+//! all in sections that are not read.
 
 use super::ahead::{Rows, read_ahead};
 use super::error::{FilePosition, FormatError, Reason};

@@ -16,9 +16,9 @@ use tempfile::NamedTempFile;
 /// Writes a mesh and returns the paths written.
 ///
 /// `NAME.node`, `NAME.ele`, `NAME.face` or `NAME.edge`, whichever is given, writes all four, for TetGen and its
-/// friends; every double is read back bit by bit as it was. If some vertices are exactly elsewhere, `NAME.steiner` says
-/// where; otherwise a file of that name is removed, since it would be about another mesh. `NAME.vtu` writes one file for
-/// ParaView, which [`read_mesh`] does not read.
+/// friends; every double is read back bit by bit as it was. If some vertices are exactly elsewhere, `NAME.steiner`
+/// says where; otherwise a file of that name is removed, since it would be about another mesh. `NAME.vtu` writes one
+/// file for ParaView, which [`read_mesh`] does not read.
 ///
 /// # Errors
 /// If the extension is another, if the mesh names vertices that it does not have or holds numbers that are not
@@ -66,8 +66,8 @@ pub fn write_mesh(path: &Path, mesh: &ExportedMesh) -> Result<Vec<PathBuf>, Mesh
     staged.into_iter().map(Staged::publish).collect()
 }
 
-/// Writes a file of any kind, which is complete or, if that fails, not there (or as it was). What is no file but a pipe or
-/// a terminal is written to as it stands.
+/// Writes a file of any kind, which is complete or, if that fails, not there (or as it was). What is no file but a
+/// pipe or a terminal is written to as it stands.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -95,8 +95,8 @@ pub fn mesh_paths(path: &Path) -> Result<Vec<PathBuf>, MeshFileError> {
     })
 }
 
-/// Reads `NAME.node` and `NAME.ele`, and `NAME.face`, `NAME.edge` and `NAME.steiner` if they exist; `path` is any of the first
-/// four. Or reads `NAME.mesh`, one ASCII file of Medit.
+/// Reads `NAME.node` and `NAME.ele`, and `NAME.face`, `NAME.edge` and `NAME.steiner` if they exist; `path` is any of
+/// the first four. Or reads `NAME.mesh`, one ASCII file of Medit.
 ///
 /// Files of TetGen are read as well as ours: comments, marks and attributes of vertices and the extra columns of `-nn`
 /// are skipped; of several attributes of a tetrahedron the last is the region's, where TetGen puts it. What the

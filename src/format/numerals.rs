@@ -20,8 +20,8 @@ pub(super) fn whole(token: &[u8]) -> Option<i64> {
     })
 }
 
-/// The number that Fortran writes with D in the place of E, as in `1.5D+00`. (It leaves the letter out before an exponent
-/// of three digits; then the word could be two numbers as well, and is none.)
+/// The number that Fortran writes with D in the place of E, as in `1.5D+00`. (It leaves the letter out before an
+/// exponent of three digits; then the word could be two numbers as well, and is none.)
 #[cold]
 pub(super) fn fortran(token: &[u8]) -> Option<f64> {
     let at = token.iter().position(|b| matches!(b, b'd' | b'D'))?;
@@ -40,9 +40,9 @@ pub(super) fn has_decimal_comma(token: &[u8]) -> bool {
         && text.replacen(',', ".", 1).parse::<f64>().is_ok()
 }
 
-/// Whether the fields of a line, of which at least two are separated by a comma without a blank, have nothing but such
-/// commas between them. `1,0.5,0,0` is so; in `1 0,5 0,0 0,0` the commas are decimal ones; and in `8,000` or `1,000,000`
-/// they may be for thousands.
+/// Whether the fields of a line, of which at least two are separated by a comma without a blank, have nothing but
+/// such commas between them. `1,0.5,0,0` is so; in `1 0,5 0,0 0,0` the commas are decimal ones; and in `8,000` or
+/// `1,000,000` they may be for thousands.
 #[cold]
 pub(super) fn is_separated_by_commas(line: &[u8]) -> bool {
     let mut fields = line.trim_ascii().split(|&b| b == b',');

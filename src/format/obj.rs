@@ -9,8 +9,8 @@
 //! Faces and lines of different objects `o`, groups `g` or materials `usemtl` have different markers; see
 //! [`super::labels`].
 //!
-//! Why not the crate `tobj` (4.0): its errors have no place, it joins objects and splits vertices by material and normal,
-//! and it does not know continued lines.
+//! Why not the crate `tobj` (4.0): its errors have no place, it joins objects and splits vertices by material and
+//! normal, and it does not know continued lines.
 
 use super::ahead::{Rows, read_ahead};
 use super::error::{FilePosition, FormatError, Reason};

@@ -1,15 +1,16 @@
 //! OFF files (Geomview manual, section "OFF files").
 //!
-//! `OFF` with any of the prefixes ST, C, N (whose texture coordinates, colours and normals are ignored), or no header at
-//! all; then the numbers of vertices and faces and possibly of edges; one line per vertex, one per face. What follows the
-//! three coordinates or the corners in a line are colours, and ignored. Vertices count from 0.
+//! `OFF` with any of the prefixes ST, C, N (whose texture coordinates, colours and normals are ignored), or no header
+//! at all; then the numbers of vertices and faces and possibly of edges; one line per vertex, one per face. What
+//! follows the three coordinates or the corners in a line are colours, and ignored. Vertices count from 0.
 //!
-//! A file whose lines are not rows may still be one if its words are read one after the other, whatever the line breaks:
-//! three numbers for a vertex, and those that the prefix announces; for a face its corners alone. That is tried only
-//! if the lines make no sense, or if vertices begin on the line of the counts, and must use every word of the file.
+//! A file whose lines are not rows may still be one if its words are read one after the other, whatever the line
+//! breaks: three numbers for a vertex, and those that the prefix announces; for a face its corners alone. That is
+//! tried only if the lines make no sense, or if vertices begin on the line of the counts, and must use every word of
+//! the file.
 //!
-//! The dimension of `nOFF` stands before the counts, and must be 3; `4OFF` is refused. An error is whatever is left over
-//! after the last face, because then a count is wrong. After `OFF BINARY` see [`super::off_binary`].
+//! The dimension of `nOFF` stands before the counts, and must be 3; `4OFF` is refused. An error is whatever is left
+//! over after the last face, because then a count is wrong. After `OFF BINARY` see [`super::off_binary`].
 
 use super::ahead::{Rows, read_ahead};
 use super::error::{FormatError, Reason};
@@ -82,8 +83,8 @@ fn header(text: &mut Text) -> Result<Header, FormatError> {
     Ok(Header::Text(TextHeader { vertices, extra }))
 }
 
-/// The header is `[ST][C][N][4][n]OFF`, where 4 and n stand for dimensions other than 3. Returns how many numbers texture
-/// coordinates, colour and normal of a vertex are.
+/// The header is `[ST][C][N][4][n]OFF`, where 4 and n stand for dimensions other than 3. Returns how many numbers
+/// texture coordinates, colour and normal of a vertex are.
 fn prefix(text: &mut Text, token: &[u8]) -> Result<u64, FormatError> {
     if token == b"nOFF" {
         let token = text.anywhere("the dimension")?;

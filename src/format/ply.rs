@@ -1,21 +1,21 @@
 //! PLY files (Turk, *The PLY Polygon File Format*, 1994): ASCII, and binary of both byte orders.
 //!
-//! Read are the coordinates `x y z` of the element `vertex` (of any type), the list `vertex_indices` or `vertex_index` of
-//! `face`, the same of `tristrips`, whose strips of triangles end at −1, and `vertex1 vertex2` of `edge`, which become
-//! segments; other properties and elements are skipped. Binary singles are widened exactly. In an ASCII file the digits
-//! count, not the declared type: `0.1` is the double nearest to 0.1 even where the header says `float`. Vertices count
-//! from 0.
+//! Read are the coordinates `x y z` of the element `vertex` (of any type), the list `vertex_indices` or
+//! `vertex_index` of `face`, the same of `tristrips`, whose strips of triangles end at −1, and `vertex1 vertex2` of
+//! `edge`, which become segments; other properties and elements are skipped. Binary singles are widened exactly. In
+//! an ASCII file the digits count, not the declared type: `0.1` is the double nearest to 0.1 even where the header
+//! says `float`. Vertices count from 0.
 //!
 //! The markers of faces are the property `label`, or another one that says what part they belong to (of a type of
 //! whole numbers); else, where faces have different colours (of bytes), 1, 2, … in the order of the first face of each.
 //!
-//! Comments are those of the header, and in ASCII files whatever is in braces on one line. An ASCII file whose lines are
-//! not elements is read word by word if that uses every word. Forgiven are bytes after the end of a binary file that are
-//! not one more element. An error is whatever is left over in an ASCII file, because then a number is wrong.
+//! Comments are those of the header, and in ASCII files whatever is in braces on one line. An ASCII file whose lines
+//! are not elements is read word by word if that uses every word. Forgiven are bytes after the end of a binary file
+//! that are not one more element. An error is whatever is left over in an ASCII file, because then a number is wrong.
 //!
-//! Why not the crate `ply-rs-bw` (4.0): it rounds `float` in ASCII files to singles, stores one element after the other for
-//! any number of elements without properties (a header of 80 bytes fills the memory), does not notice bytes that are left
-//! over, and gives up the places of values, which are needed to say where an index is out of range.
+//! Why not the crate `ply-rs-bw` (4.0): it rounds `float` in ASCII files to singles, stores one element after the
+//! other for any number of elements without properties (a header of 80 bytes fills the memory), does not notice bytes
+//! that are left over, and gives up the places of values, which are needed to say where an index is out of range.
 
 use super::ahead::{Rows, read_ahead};
 use super::bytes::Bytes;

@@ -13,13 +13,13 @@
 //!
 //! As in TetGen, a list of no vertices refers to the `.node` file, corners may go on in the next line, the facet's
 //! number of holes may be missing, and so may the list of regions, or those of holes and regions, at the end of the
-//! file. The numbers of facets, holes and regions say nothing. Corners are the numbers of vertices as the file has them,
-//! from any number on and in any order; if they do not follow one another there is a note, because TetGen then counts
-//! the lines instead.
+//! file. The numbers of facets, holes and regions say nothing. Corners are the numbers of vertices as the file has
+//! them, from any number on and in any order; if they do not follow one another there is a note, because TetGen then
+//! counts the lines instead.
 //!
 //! Forgiven, too: attributes and markers of vertices that are missing or not announced, facet markers that are not
-//! announced, and whatever follows the last region, such as a fifth part, if it cannot be one more region. Anything else
-//! that is left over in a line is an error, because then a count is wrong; so are two vertices of one number.
+//! announced, and whatever follows the last region, such as a fifth part, if it cannot be one more region. Anything
+//! else that is left over in a line is an error, because then a count is wrong; so are two vertices of one number.
 
 use super::ahead::{Rows, read_aligned};
 use super::error::{FormatError, Reason};

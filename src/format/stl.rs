@@ -1,22 +1,22 @@
 //! STL files, ASCII and binary (3D Systems, *Stereolithography Interface Specification*, 1988).
 //!
-//! A file is binary if its size is 84 + 50n, where n is the little-endian number in the bytes 80 to 83, or if it is not
-//! text: if there is a NUL byte in it (not only at its end), or if it begins with neither `solid` nor `facet`. (The header
-//! of a binary file may start with `solid`, and an ASCII file can have any size. An ASCII file has at least 0x09090909
-//! there, so it would have to be larger than 7 GB to be mistaken.)
+//! A file is binary if its size is 84 + 50n, where n is the little-endian number in the bytes 80 to 83, or if it is
+//! not text: if there is a NUL byte in it (not only at its end), or if it begins with neither `solid` nor `facet`.
+//! (The header of a binary file may start with `solid`, and an ASCII file can have any size. An ASCII file has at
+//! least 0x09090909 there, so it would have to be larger than 7 GB to be mistaken.)
 //!
 //! Corners with the same coordinates become one vertex, where −0 = 0. Normals are ignored. Vertices count from 0. If
 //! there are several solids with triangles in a file, their triangles have the markers 1, 2, …, with the names of the
 //! solids; those of a single solid have the marker 0.
 //!
-//! Forgiven: `end solid` and the like in two words; missing `endloop`, `endfacet`, `endsolid` and first `solid`; comments
-//! where a keyword would stand; bytes after the last triangle of a binary file that are not one more triangle: fewer than
-//! 50, or text, or all the same. An error are a binary file that is too short, because it was cut, one with more
-//! triangles than it says, and loops of more than three vertices.
+//! Forgiven: `end solid` and the like in two words; missing `endloop`, `endfacet`, `endsolid` and first `solid`;
+//! comments where a keyword would stand; bytes after the last triangle of a binary file that are not one more
+//! triangle: fewer than 50, or text, or all the same. An error are a binary file that is too short, because it was
+//! cut, one with more triangles than it says, and loops of more than three vertices.
 //!
-//! Why not the crate `stl_io`: it takes every file that starts with `solid ` for ASCII and every other one for binary, so
-//! it misreads binary files with such a header and ASCII files with a blank before it; it reads ASCII coordinates as
-//! `f32`; and its errors have no place.
+//! Why not the crate `stl_io`: it takes every file that starts with `solid ` for ASCII and every other one for
+//! binary, so it misreads binary files with such a header and ASCII files with a blank before it; it reads ASCII
+//! coordinates as `f32`; and its errors have no place.
 
 use super::ahead::Rows;
 use super::error::{FilePosition, FormatError, Reason};

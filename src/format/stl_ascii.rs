@@ -1,5 +1,5 @@
-//! ASCII STL files: `solid`, its facets, `endsolid`, and perhaps more solids. Words are separated by any blanks; names and
-//! normals end with their lines, or before a facet that begins on the same line.
+//! ASCII STL files: `solid`, its facets, `endsolid`, and perhaps more solids. Words are separated by any blanks;
+//! names and normals end with their lines, or before a facet that begins on the same line.
 
 use super::ahead::read_aligned;
 use super::error::FormatError;

@@ -1,7 +1,7 @@
 //! Words and numbers of a text file, with line numbers.
 //!
-//! Lines end with LF, CRLF or CR; lines without a word are skipped. A comment runs from `#` to the end of its line (but in
-//! STL and PLY). Nothing is allocated by a count that a file announces.
+//! Lines end with LF, CRLF or CR; lines without a word are skipped. A comment runs from `#` to the end of its line
+//! (but in STL and PLY). Nothing is allocated by a count that a file announces.
 //!
 //! Forgiven, each with a note that names the lines:
 //! - a comma after a number, or before it, if there is a blank on the other side or if the whole line has commas and
