@@ -1,4 +1,5 @@
-//! The walk to a point, the insertion of vertices one by one (Bowyer–Watson), and a Delaunay tetrahedralization as a whole.
+//! The walk to a point, the insertion of vertices one by one (Bowyer–Watson), and a Delaunay tetrahedralization as a
+//! whole.
 
 use super::inputs::{lattice, random, tetrahedralized, uniform};
 use criterion::{BatchSize, Criterion, Throughput};

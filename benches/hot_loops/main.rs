@@ -1,6 +1,6 @@
-//! Where the time goes, loop by loop: the predicates on easy and on degenerate points, the walk and the insertion of the
-//! Delaunay tetrahedralization, and the flip times, the queue and the flips of a polygon's insertion; then a polygon as a
-//! whole, by each method, in a scene like that of the paper's Fig. 8.
+//! Where the time goes, loop by loop: the predicates on easy and on degenerate points, the walk and the insertion of
+//! the Delaunay tetrahedralization, and the flip times, the queue and the flips of a polygon's insertion; then a
+//! polygon as a whole, by each method, in a scene like that of the paper's Fig. 8.
 //!
 //! `cargo bench` runs all, `cargo bench -- insphere` some, `cargo bench -- --test` each once.
 

@@ -18,13 +18,13 @@ use std::borrow::Cow;
 /// Fewer tetrahedra are one thread's work.
 const FEW: usize = 1 << 15;
 
-impl Cdt<DoublePoints> {
-    /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are in
-    /// an order that depends on their vertices alone, so that equal meshes give equal files.
+impl Cdt {
+    /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are
+    /// in an order that depends on their vertices alone, so that equal meshes give equal files.
     ///
     /// # Errors
-    /// [`InvalidPlc`](crate::error::InvalidPlc) if polygons of the input overlap, or have something inside that they do not
-    /// declare; [`GaveUp::NothingInside`] if nothing would be left.
+    /// [`InvalidPlc`](crate::error::InvalidPlc) if polygons of the input overlap, or have something inside that they do
+    /// not declare; [`GaveUp::NothingInside`] if nothing would be left.
     pub fn export(
         &mut self,
         plc: &Plc,
@@ -33,24 +33,22 @@ impl Cdt<DoublePoints> {
     ) -> Result<ExportedMesh, Failure> {
         report.time(Phase::Domain, |report| {
             check_embedding(
-                &self.pieces.complex,
-                &self.subsegments,
-                &self.index,
-                (&self.subpolygons, self.points.len()),
-                &self.inserted,
+                &self.plc.pieces.complex,
+                &self.plc.subsegments,
+                (&self.cdt.subpolygons, self.plc.points.len()),
+                &self.cdt.inserted,
             )?;
-            let n = self.points.len();
-            let walls = SimplexIndex::of_triangles(n, self.subpolygons.iter());
-            let marks = mark_domain(plc, &self.points, &self.mesh, &walls, keep_hull)?;
+            let n = self.plc.points.len();
+            let walls = SimplexIndex::of_triangles(n, self.cdt.subpolygons.iter());
+            let marks = mark_domain(plc, &self.plc.points, &self.cdt.mesh, &walls, keep_hull)?;
             let mut repair = Repair {
-                points: &self.points,
-                mesh: Cow::Borrowed(&self.mesh),
-                incidence: Cow::Borrowed(&self.incidence),
-                subpolygons: Cow::Borrowed(&self.subpolygons),
+                points: &self.plc.points,
+                mesh: Cow::Borrowed(&self.cdt.mesh),
+                incidence: Cow::Borrowed(&self.cdt.incidence),
+                subpolygons: Cow::Borrowed(&self.cdt.subpolygons),
                 marks,
-                pieces: &self.pieces,
-                subsegments: &self.subsegments,
-                index: &self.index,
+                pieces: &self.plc.pieces,
+                subsegments: &self.plc.subsegments,
             };
             report.flattening.shims = repair.run(!keep_hull);
             let walls = match &repair.subpolygons {
@@ -69,7 +67,7 @@ impl Cdt<DoublePoints> {
             }
             sort_by_least(&mut tets, n, |tet| tet.0[0], |tet| tet.0);
             let vertices: Vec<[VertexId; 4]> = tets.iter().map(|&(v, _)| v).collect();
-            let rounding = round(&self.points, &vertices);
+            let rounding = round(&self.plc.points, &vertices);
             report.moved_by_rounding = rounding.moved;
             report.spoilt_by_rounding = rounding.spoilt;
             let faces = self.faces(&repair, &walls);
@@ -96,10 +94,10 @@ impl Cdt<DoublePoints> {
     /// Where the points are whose coordinates are no doubles.
     fn exact_positions(&self) -> Vec<ExactPosition> {
         let first = self.complex.representative.len();
-        let steiner = (first..self.points.len()).map(VertexId::new);
-        let rounded = steiner.filter(|&v| !self.points.is_double(v));
+        let steiner = (first..self.plc.points.len()).map(VertexId::new);
+        let rounded = steiner.filter(|&v| !self.plc.points.is_double(v));
         let position = |vertex: VertexId| {
-            let (ends, t) = self.subsegments.place_of_steiner(vertex)?;
+            let (ends, t) = self.plc.subsegments.place_of_steiner(vertex)?;
             Some(ExactPosition { vertex, ends, t })
         };
         rounded
@@ -126,25 +124,25 @@ impl Cdt<DoublePoints> {
                 let polygon = walls.triangle(facet);
                 if polygon.is_some() || boundary {
                     let marker =
-                        polygon.map_or(0, |f| self.pieces.complex.polygons[f as usize].marker);
+                        polygon.map_or(0, |f| self.plc.pieces.complex.polygons[f as usize].marker);
                     let vertices = face(facet);
                     faces.push(ExportedFace { vertices, marker });
                 }
             }
         });
-        let n = self.points.len();
+        let n = self.plc.points.len();
         sort_by_least(&mut faces, n, |f| f.vertices[0], |f| f.vertices);
         faces
     }
 
     /// The subsegments of the domain, whose faces are given, with their markers.
     fn edges(&self, written: &Repair<DoublePoints>, faces: &[ExportedFace]) -> Vec<ExportedEdge> {
-        let n = self.points.len();
+        let n = self.plc.points.len();
         let mut markers = Vec::new();
         let mut ends: Vec<[VertexId; 2]> = Vec::new();
         let given = self.complex.segments.len() - self.complex.diagonals;
         for (s, segment) in self.complex.segments[..given].iter().enumerate() {
-            let mut chain = self.subsegments.chain(s as u32);
+            let mut chain = self.plc.subsegments.chain(s as u32);
             let mut last = chain.next();
             for v in chain {
                 ends.extend(last.replace(v).map(|u| [u.min(v), u.max(v)]));

@@ -7,11 +7,12 @@
 //! arithmetic, and no insertion of theirs meets the troubles of the paper's §3.1 and §3.2. What remains of those is
 //! here, where nothing of the mesh has been touched:
 //!
-//! - Two edges that cross in projection are opposite edges of a shim, or of a pile of shims (tetrahedra with all vertices
-//!   on f). Any choice will do that divides f into flat cells: the lower one always, so that f runs below all shims; the
-//!   upper one always; or the shorter one first. On the convex hull one of the first two can be a bad choice: from
-//!   outside, every edge of the hull is Delaunay, however long, and hides shims across segments.
-//! - Where neither diagonal of a quadrilateral is an edge (paper, Fig. 4) a cell remains that is not flat: [`Cut::bad`].
+//! - Two edges that cross in projection are opposite edges of a shim, or of a pile of shims (tetrahedra with all
+//!   vertices on f). Any choice will do that divides f into flat cells: the lower one always, so that f runs below all
+//!   shims; the upper one always; or the shorter one first. On the convex hull one of the first two can be a bad
+//!   choice: from outside, every edge of the hull is Delaunay, however long, and hides shims across segments.
+//! - Where neither diagonal of a quadrilateral is an edge (paper, Fig. 4) a cell remains that is not flat:
+//!   [`Cut::bad`].
 //!
 //! Linear in the stars of f's vertices, but for the sweep over its edges.
 
@@ -22,7 +23,7 @@ use super::neighbours::Neighbours;
 use crate::mesh::{Incidence, TetMesh};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
-use crate::recover::segments::{SegmentIndex, Subsegments};
+use crate::recover::segments::Subsegments;
 
 /// A polygon in pieces.
 #[derive(Clone, Debug, Default)]
@@ -40,10 +41,10 @@ pub(super) fn cut<P: PointStore>(
     figure: &Figure<P>,
     f: &Polygon,
     (mesh, incidence, neighbours): (&TetMesh, &Incidence, &mut Neighbours),
-    constraints: (&Subsegments, &SegmentIndex),
+    subsegments: &Subsegments,
 ) -> Cut {
     let points = figure.points;
-    let candidates = figure.candidates(mesh, incidence, neighbours, constraints);
+    let candidates = figure.candidates(mesh, incidence, neighbours, subsegments);
     let crossings = Crossings::new(figure, candidates);
     let preferences = [Preference::Lower, Preference::Upper, Preference::Shorter];
     let mut best: Option<Cut> = None;

@@ -1,21 +1,23 @@
 //! Polygons that are flat only to rounding (paper, end of §3.1 and of §3.2), dealt with before any polygon is inserted.
 //!
-//! Polygons of four or more vertices in floating point, and polygons with rounded Steiner points on their boundaries, are
-//! not exactly flat. Each is cut into exactly flat pieces along edges that the Delaunay tetrahedralization has (`cut.rs`).
-//! Where edges are missing the polygon gets a Steiner point (`steiner.rs`), and is cut again, until all pieces of all
-//! polygons are flat. As this happens in the Delaunay tetrahedralization, no mesh of a polygon is ever taken back.
+//! Polygons of four or more vertices in floating point, and polygons with rounded Steiner points on their boundaries,
+//! are not exactly flat. Each is cut into exactly flat pieces along edges that the Delaunay tetrahedralization has
+//! (`cut.rs`). Where edges are missing the polygon gets a Steiner point (`steiner.rs`), and is cut again, until all
+//! pieces of all polygons are flat. As this happens in the Delaunay tetrahedralization, no mesh of a polygon is ever
+//! taken back.
 //!
-//! Then every insertion is one of an exactly flat polygon into an edge-protected PLC, and what is proved of those holds:
-//! there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it. It may have shims, which are
-//! repaired on output (`shims`).
+//! Then every insertion is one of an exactly flat polygon into an edge-protected PLC, and what is proved of those
+//! holds: there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it. It may have shims, which
+//! are repaired on output (`shims`).
 //!
-//! After each round of Steiner points only polygons with both ends of an edge that has vanished are looked at, and those
-//! that could not be cut.
+//! After each round of Steiner points only polygons with both ends of an edge that has vanished are looked at, and
+//! those that could not be cut.
 //!
 //! # End
 //! Refinement of nearly flat polygons ends in practice for the same reasons as that of segments; it is bounded by
-//! [`MOST_ROUNDS`] and [`MOST_POINTS`]. Beyond those nothing is inserted, and polygons that cannot be cut are left to the
-//! insertion of polygons as they are, which treats their vertices as if they were on one plane, and may refuse them.
+//! [`MOST_ROUNDS`] and [`MOST_POINTS`]. Beyond those nothing is inserted, and polygons that cannot be cut are left to
+//! the insertion of polygons as they are, which treats their vertices as if they were on one plane, and may refuse
+//! them.
 
 mod cells;
 mod counts;
@@ -35,7 +37,7 @@ use crate::delaunay::Delaunay;
 use crate::mesh::{Groups, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
 use crate::predicate::{GrowingStore, PointStore};
-use crate::recover::segments::{Request, SegmentIndex, Subsegments, add_steiner_points};
+use crate::recover::segments::{Request, Subsegments, add_steiner_points};
 use cut::Cut;
 use figure::Figure;
 use neighbours::Neighbours;
@@ -51,7 +53,6 @@ pub const MOST_POINTS: usize = 1000;
 /// What the polygons of a complex are made of at the moment.
 struct State<'a> {
     complex: &'a Arc<Complex>,
-    index: &'a SegmentIndex,
     /// The pieces of polygons that are not flat.
     cuts: Vec<Option<Box<Cut>>>,
     /// The polygons with cells that are not flat, ascending.
@@ -65,10 +66,10 @@ struct State<'a> {
     vertices: Vec<VertexId>,
 }
 
-/// On which polygons each vertex is. The pieces of a polygon depend on its vertices and on the edges between them. Edges that
-/// appear have a new vertex, and if that is on a segment, it divides an edge of all polygons that it is on, of which it is
-/// the first new vertex, or which have been found by an earlier one. So a polygon with at most one end of each edge that
-/// vanishes is as it was, unless it gets an inner point.
+/// On which polygons each vertex is. The pieces of a polygon depend on its vertices and on the edges between them.
+/// Edges that appear have a new vertex, and if that is on a segment, it divides an edge of all polygons that it is on,
+/// of which it is the first new vertex, or which have been found by an earlier one. So a polygon with at most one end
+/// of each edge that vanishes is as it was, unless it gets an inner point.
 struct PolygonsAt {
     /// Those of the vertices when the first Steiner point was inserted; polygons keep all vertices that they have.
     before: Groups<u32>,
@@ -102,7 +103,6 @@ impl PolygonsAt {
 /// those, none is inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]).
 pub fn flatten<P: GrowingStore>(
     complex: &Arc<Complex>,
-    index: &SegmentIndex,
     points: &mut P,
     delaunay: &mut Delaunay,
     subsegments: &mut Subsegments,
@@ -112,7 +112,6 @@ pub fn flatten<P: GrowingStore>(
     let n = complex.polygons.len();
     let mut state = State {
         complex,
-        index,
         cuts: vec![None; n],
         bad: Vec::new(),
         inner: vec![Vec::new(); n],
@@ -166,8 +165,8 @@ pub fn flatten<P: GrowingStore>(
 }
 
 impl State<'_> {
-    /// Cuts those of the given polygons, in ascending order, that are not flat, and returns the Steiner points that they
-    /// want. All polygons that have cells that are not flat must be among them.
+    /// Cuts those of the given polygons, in ascending order, that are not flat, and returns the Steiner points that
+    /// they want. All polygons that have cells that are not flat must be among them.
     fn cut_all<P: PointStore>(
         &mut self,
         points: &P,
@@ -185,9 +184,8 @@ impl State<'_> {
                 continue;
             }
             let figure = Figure::new(points, polygon, (&self.boundary, &self.vertices));
-            let constraints = (subsegments, self.index);
             let around = (mesh, incidence, &mut self.neighbours);
-            let cut = cut::cut(&figure, polygon, around, constraints);
+            let cut = cut::cut(&figure, polygon, around, subsegments);
             if !cut.bad.is_empty() {
                 self.bad.push(f);
                 let wanted = wanted(&figure, polygon, &cut);
@@ -202,7 +200,7 @@ impl State<'_> {
     fn look_at(&mut self, f: usize, subsegments: &Subsegments) {
         let polygon = &self.complex.polygons[f];
         self.boundary.clear();
-        subsegments.append_boundary(self.index, polygon, &mut self.boundary);
+        subsegments.append_boundary(polygon, &mut self.boundary);
         self.vertices.clear();
         self.vertices.extend(&polygon.vertices);
         if self.boundary.len() > polygon.edges.len() || !self.inner[f].is_empty() {
@@ -255,10 +253,8 @@ impl State<'_> {
         let n = self.cuts.len();
         if self.cuts.iter().all(Option::is_none) {
             return Pieces {
-                complex: Arc::clone(self.complex),
-                first: (0..=n).collect(),
-                was_cut: vec![false; n],
                 inner: self.inner,
+                ..Pieces::whole(Arc::clone(self.complex))
             };
         }
         let mut polygons = Vec::with_capacity(n);

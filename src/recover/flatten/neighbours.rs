@@ -1,7 +1,7 @@
 //! The edges of the Delaunay tetrahedralization at the vertices of polygons that are cut.
 //!
-//! A vertex is on several polygons, and may be the hub of very many edges: its star is walked once, and again only after it
-//! has changed. Linear in the stars that are asked for.
+//! A vertex is on several polygons, and may be the hub of very many edges: its star is walked once, and again only
+//! after it has changed. Linear in the stars that are asked for.
 
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use rustc_hash::FxHashSet;

@@ -8,8 +8,8 @@ use std::sync::Arc;
 /// The polygons of a complex in exactly flat pieces.
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {
-    /// The segments of the complex, and all pieces: polygons that were flat as they are, and the pieces of the others, whose
-    /// edges are edges of the mesh. The complex itself if nothing had to be cut.
+    /// The segments of the complex, and all pieces: polygons that were flat as they are, and the pieces of the others,
+    /// whose edges are edges of the mesh. The complex itself if nothing had to be cut.
     pub complex: Arc<Complex>,
     /// The first piece of each polygon, and the number of pieces at the end.
     pub(crate) first: Vec<usize>,
@@ -20,6 +20,17 @@ pub struct Pieces {
 }
 
 impl Pieces {
+    /// Every polygon in one piece.
+    pub(crate) fn whole(complex: Arc<Complex>) -> Pieces {
+        let n = complex.polygons.len();
+        Pieces {
+            complex,
+            first: (0..=n).collect(),
+            was_cut: vec![false; n],
+            inner: vec![Vec::new(); n],
+        }
+    }
+
     /// The pieces of polygon f.
     pub fn of(&self, f: usize) -> Range<usize> {
         self.first[f]..self.first[f + 1]

@@ -1,7 +1,7 @@
 //! A polygon that is flat only to rounding, in projection: exact signs of two coordinates.
 //!
-//! The coordinate in which the normal of the polygon's frame is largest is dropped, so that the projection is one to one
-//! wherever the polygon is nearly flat. The projection is viewed from the left side of the polygon.
+//! The coordinate in which the normal of the polygon's frame is largest is dropped, so that the projection is one to
+//! one wherever the polygon is nearly flat. The projection is viewed from the left side of the polygon.
 
 use crate::mesh::VertexId;
 use crate::number::{Dyadic, Number, Polynomial, Sign, Vec3, decide};
@@ -68,8 +68,8 @@ impl<'a, P: PointStore> Plane<'a, P> {
         sign.is_positive()
     }
 
-    /// Of several points, the one whose direction from v is the last one counterclockwise from the direction to `first`, which
-    /// is the least; the last of them if several directions are.
+    /// Of several points, the one whose direction from v is the last one counterclockwise from the direction to
+    /// `first`, which is the least; the last of them if several directions are.
     pub(crate) fn last_around<T>(
         &self,
         v: VertexId,

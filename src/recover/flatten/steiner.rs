@@ -13,12 +13,12 @@ use crate::recover::segments::Request;
 /// The most vertices of a cell among which a Delaunay triangle is searched.
 const MOST_TRIED: usize = 256;
 
-/// A Steiner point for a cell of a polygon with the boundary subsegments `boundary`, and the radius of the circle around
-/// it that has no vertex of the cell.
+/// A Steiner point for a cell of a polygon with the boundary subsegments `boundary`, and the radius of the circle
+/// around it that has no vertex of the cell.
 ///
-/// The circumcenter of the largest Delaunay triangle of the cell's vertices, on the plane of the polygon's frame: that of a
-/// small triangle is not where the polygon is. If it is in the diametral sphere of a subsegment of the boundary, or
-/// beyond one, the subsegment is split instead.
+/// The circumcenter of the largest Delaunay triangle of the cell's vertices, on the plane of the polygon's frame: that
+/// of a small triangle is not where the polygon is. If it is in the diametral sphere of a subsegment of the boundary,
+/// or beyond one, the subsegment is split instead.
 pub(super) fn for_cell<P: PointStore>(
     points: &P,
     plane: &Plane<P>,
@@ -117,7 +117,7 @@ fn circumcenter(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Option<([f64; 3], f64)
 }
 
 fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
-    crate::recover::segments::sight(p, a, b)
+    crate::recover::segments::angle_measure(p, a, b)
 }
 
 #[cfg(test)]

@@ -1,38 +1,38 @@
 //! Whether the polygons in the mesh meet as those of a PLC may: in common vertices and segments only.
 //!
-//! Recovery notices intersections only where they are in its way. Others leave no trace in the tetrahedra: a wall whose foot
-//! no floor declares is recovered like any other, and of two polygons that overlap the second takes the triangles of the
-//! first. But the mesh is a simplicial complex, so that polygons made of its triangles intersect in vertices, edges and
-//! triangles of it. A polygon f is as it was given, and meets the others as it may, if
+//! Recovery notices intersections only where they are in its way. Others leave no trace in the tetrahedra: a wall whose
+//! foot no floor declares is recovered like any other, and of two polygons that overlap the second takes the triangles
+//! of the first. But the mesh is a simplicial complex, so that polygons made of its triangles intersect in vertices,
+//! edges and triangles of it. A polygon f is as it was given, and meets the others as it may, if
 //!
-//! - each subsegment that bounds it has as many triangles of f as f is on sides of it, and each other edge of its triangles has
-//!   two: nobody else has taken one;
+//! - each subsegment that bounds it has as many triangles of f as f is on sides of it, and each other edge of its
+//!   triangles has two: nobody else has taken one;
 //! - no other edge of its triangles is a subsegment, or has triangles of another polygon;
 //! - its triangles have no vertices but those of f and Steiner points on its segments.
 //!
 //! Of a polygon that is flat only to rounding each piece counts for itself. A segment, or the foot of a wall, that lies
-//! along one of its cuts without being declared there is therefore not refused. Nothing is lost: where a polygon like that
-//! lies is known only to rounding, the cut is a chain of edges of the mesh, and both constraints are unions of simplices of
-//! it, as if it had been declared. ([`crate::check`] refuses it if its own triangulation of the polygon has that diagonal.)
+//! along one of its cuts without being declared there is therefore not refused. Nothing is lost: where a polygon like
+//! that lies is known only to rounding, the cut is a chain of edges of the mesh, and both constraints are unions of
+//! simplices of it, as if it had been declared. ([`crate::check`] refuses it if its own triangulation of the polygon
+//! has that diagonal.)
 //!
-//! All of it is combinatorial, hence exact. Edges are grouped by their lesser ends: O(n + k) for k triangles on polygons, of
-//! n vertices with few edges each.
+//! All of it is combinatorial, hence exact. Edges are grouped by their lesser ends: O(n + k) for k triangles on
+//! polygons, of n vertices with few edges each.
 
 use crate::error::InvalidPlc;
 use crate::mesh::{Groups, VertexId};
 use crate::plc::Complex;
-use crate::recover::segments::{SegmentIndex, Subsegments};
-use crate::recover::subpolygons::Face;
-use crate::recover::subpolygons::Subpolygons;
+use crate::recover::segments::Subsegments;
+use crate::recover::subpolygons::{Face, Subpolygons};
 
-/// An edge, by its greater end, with a triangle of a polygon at it, or with a side of a polygon that it bounds; as one number,
-/// for sorting.
+/// An edge, by its greater end, with a triangle of a polygon at it, or with a side of a polygon that it bounds; as one
+/// number, for sorting.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side(u64);
+struct EdgeUse(u64);
 
-impl Side {
-    fn new(end: VertexId, polygon: u32, bounds: bool) -> Side {
-        Side(u64::from(end.0) << 32 | u64::from(polygon << 1 | u32::from(bounds)))
+impl EdgeUse {
+    fn new(end: VertexId, polygon: u32, bounds: bool) -> EdgeUse {
+        EdgeUse(u64::from(end.0) << 32 | u64::from(polygon << 1 | u32::from(bounds)))
     }
 
     fn end(self) -> VertexId {
@@ -72,7 +72,6 @@ impl Parts {
 pub fn check_embedding(
     complex: &Complex,
     subsegments: &Subsegments,
-    index: &SegmentIndex,
     (subpolygons, n): (&Subpolygons, usize),
     inserted: &[bool],
 ) -> Result<(), InvalidPlc> {
@@ -85,7 +84,7 @@ pub fn check_embedding(
     };
     for (polygon, inserted) in complex.polygons.iter().zip(inserted) {
         if *inserted {
-            subsegments.append_boundary(index, polygon, &mut parts.boundary);
+            subsegments.append_boundary(polygon, &mut parts.boundary);
         }
         parts.ends.push(parts.boundary.len());
     }
@@ -102,11 +101,11 @@ fn check_edges(
 ) -> Result<(), InvalidPlc> {
     let bounds = (0..complex.polygons.len()).flat_map(|f| {
         let edges = parts.boundary_of(f).iter();
-        edges.map(move |&[a, b]| (a.min(b), Side::new(a.max(b), f as u32, true)))
+        edges.map(move |&[a, b]| (a.min(b), EdgeUse::new(a.max(b), f as u32, true)))
     });
     let inner = parts.triangles.iter().flat_map(|&([a, b, c], f)| {
         let edges = [[a, b], [a, c], [b, c]];
-        edges.map(|[a, b]| (a, Side::new(b, f, false)))
+        edges.map(|[a, b]| (a, EdgeUse::new(b, f, false)))
     });
     let mut sides = Groups::new(n, bounds.chain(inner));
     sides.sort_groups(|&side| side);

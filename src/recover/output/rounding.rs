@@ -1,10 +1,10 @@
 //! Exact Steiner points as doubles, for output, without inverted or flat tetrahedra where that is possible.
 //!
-//! Every coordinate is rounded to nearest first, and ends at most one double from there. Where a tetrahedron is not positive then, its vertices that have been rounded
-//! are tried at the neighbouring doubles, and the place is taken that leaves the fewest tetrahedra around the vertex that
-//! are not positive, if those are fewer than before. The number of such tetrahedra falls with every move, so this ends. What
-//! remains is reported: it is positive with the exact positions, which are part of the output
-//! ([`ExactPosition`](crate::exchange::ExactPosition)).
+//! Every coordinate is rounded to nearest first, and ends at most one double from there. Where a tetrahedron is not
+//! positive then, its vertices that have been rounded are tried at the neighbouring doubles, and the place is taken
+//! that leaves the fewest tetrahedra around the vertex that are not positive, if those are fewer than before. The
+//! number of such tetrahedra falls with every move, so this ends. What remains is reported: it is positive with the
+//! exact positions, which are part of the output ([`ExactPosition`](crate::exchange::ExactPosition)).
 //!
 //! Linear time, apart from the vertices that are tried.
 

@@ -5,8 +5,9 @@
 //! that it is inserted last, the part of f in R. Every facet has a marker of its own, so that none are merged.
 //!
 //! What a PLC cannot say: with other polygons in the mesh, edges on R's boundary need not be edges of the Delaunay
-//! tetrahedralization of R's vertices, and then they get Steiner points; the frame of f is chosen anew from its vertices
-//! in R; rounded times that are equal are flipped in order of arrival, which depends on the numbering of the tetrahedra.
+//! tetrahedralization of R's vertices, and then they get Steiner points; the frame of f is chosen anew from its
+//! vertices in R; rounded times that are equal are flipped in order of arrival, which depends on the numbering of the
+//! tetrahedra.
 
 use super::{Region, Side, Sides};
 use crate::exchange::{Facet, Plc};
@@ -65,8 +66,8 @@ fn border_of_polygon<P: PointStore>(
     sides: &Sides<P>,
     region: &Region,
 ) -> Vec<Vec<VertexId>> {
-    // How often each edge is passed, less how often in the other direction. Where R's boundary touches itself an edge may
-    // be passed twice before it is passed back.
+    // How often each edge is passed, less how often in the other direction. Where R's boundary touches itself an edge
+    // may be passed twice before it is passed back.
     let mut passed: BTreeMap<[VertexId; 2], i32> = BTreeMap::new();
     for c in region.boundary(mesh) {
         let [x, y, z] = mesh.facet(c);

@@ -75,8 +75,8 @@ enum Inward {
 }
 
 /// What lies to the left of a→b on f. Going around ab in positive sense, the other vertices of the tetrahedra pass from
-/// right to left there, and from left to right on the far side of ab; in between there may be vertices on f, one if f is
-/// flat, several if shim tetrahedra lie between.
+/// right to left there, and from left to right on the far side of ab; in between there may be vertices on f, one if f
+/// is flat, several if shim tetrahedra lie between.
 fn inward<P: PointStore>(
     mesh: &TetMesh,
     sides: &Sides<P>,
@@ -96,8 +96,8 @@ fn inward<P: PointStore>(
     let n = link.len();
     let side = |i: usize| link[i % n].2;
     let vertex = |i: usize| link[i % n].1;
-    // A face with vertices on h alone is on the side of f if it turns left from ab in projection. If f is flat the order
-    // of the sides says the same.
+    // A face with vertices on h alone is on the side of f if it turns left from ab in projection. If f is flat the
+    // order of the sides says the same.
     let on_left = |i: usize| sides.flat || sides.turns_left(a, b, vertex(i));
     let on_f = |i: usize| side(i) == Side::On && on_left(i);
     let result = |i: usize| Inward::Face(mesh.corner_of(link[i % n].0, vertex(i + 1)), vertex(i));
@@ -108,8 +108,9 @@ fn inward<P: PointStore>(
     }
     let crossing = (0..n).find(|&i| side(i) == Side::Right && side(i + 1) == Side::Left);
     let crossing = crossing.map(|i| Inward::Crossing(link[i].0));
-    // Runs of vertices on h, as ranges of `link`. A flat f follows a right vertex and precedes a left one, and on the far
-    // side it is the other way round. A vertex that is on the wrong side because f is not flat spoils one of the two.
+    // Runs of vertices on h, as ranges of `link`. A flat f follows a right vertex and precedes a left one, and on the
+    // far side it is the other way round. A vertex that is on the wrong side because f is not flat spoils one of the
+    // two.
     let on = |i: usize| on_f(i) || (side(i) == Side::Stray && on_left(i));
     let rank = |side, near: Side, far: Side| i32::from(side == near) - i32::from(side == far);
     let runs = (0..n).filter(|&i| on(i) && !on(i + n - 1)).map(|first| {
@@ -120,8 +121,8 @@ fn inward<P: PointStore>(
         let after = rank(side(last + 1), Side::Left, Side::Right);
         (before + after, first, last)
     });
-    // If f is flat there is either such a run or a crossing tetrahedron. If it is not, slivers beyond a face of f can look
-    // like crossing ones.
+    // If f is flat there is either such a run or a crossing tetrahedron. If it is not, slivers beyond a face of f can
+    // look like crossing ones.
     let best = runs.filter(|run| run.0 >= 0).max_by_key(|run| run.0);
     let Some((_, first, last)) = best else {
         return crossing.ok_or(Obstacle::Nothing([a, b]));

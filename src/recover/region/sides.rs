@@ -92,8 +92,8 @@ impl<'a, P: PointStore> Sides<'a, P> {
         }
     }
 
-    /// The same polygon as another view of the points shows it. Which vertices are its own, and whether it is flat, stays
-    /// as it is.
+    /// The same polygon as another view of the points shows it. Which vertices are its own, and whether it is flat,
+    /// stays as it is.
     pub fn seen_through<'b, Q>(&self, points: &'b Q) -> Sides<'b, Q> {
         Sides {
             points,
@@ -218,7 +218,8 @@ impl<P: PointStore> Polynomial for NormalProduct<'_, P> {
     }
 }
 
-/// Which facets have vertices on both sides, by the bit of the opposite vertex, if the left and the right ones are those.
+/// Which facets have vertices on both sides, by the bit of the opposite vertex, if the left and the right ones are
+/// those.
 #[inline(always)]
 pub fn crossing_facets([left, right]: [u8; 2]) -> u8 {
     CROSSING_FACETS[usize::from(left & 15) << 4 | usize::from(right & 15)]

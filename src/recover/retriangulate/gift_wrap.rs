@@ -1,44 +1,47 @@
-//! Polygon insertion by gift wrapping (Shewchuk 2002, "CDTs and provably good boundary recovery"; paper §3.1): delete the
-//! tetrahedra whose interiors f cuts, and wrap the cavity on each side, which triangulates f on the way. The baseline of
-//! the comparisons, and the fallback of cavity retriangulation, as in Diazzi, Panozzo, Vaxman & Attene 2023: the
-//! cavities are not expanded, so the gap of expansion is not there.
+//! Polygon insertion by gift wrapping (Shewchuk 2002, "CDTs and provably good boundary recovery"; paper §3.1): delete
+//! the tetrahedra whose interiors f cuts, and wrap the cavity on each side, which triangulates f on the way. The
+//! baseline of the comparisons, and the fallback of cavity retriangulation, as in Diazzi, Panozzo, Vaxman & Attene
+//! 2023: the cavities are not expanded, so the gap of expansion is not there.
 //!
 //! # The algorithm
-//! The *walls* of one cavity are the facets of the tetrahedra of R that do not cross f and lie on its side. Each is to be
-//! finished on the sides on which R is. To finish a facet abc is to find the tetrahedron abcv of the CDT in front of
+//! The *walls* of one cavity are the facets of the tetrahedra of R that do not cross f and lie on its side. Each is to
+//! be finished on the sides on which R is. To finish a facet abc is to find the tetrahedron abcv of the CDT in front of
 //! it: among the vertices in front, those that f's side and f itself have, v is the one first reached by the growing
 //! sphere through a, b, c, invisible ones not counted. The other facets of abcv match facets that wait to be finished,
-//! or wait themselves; a facet with all vertices on f is a triangle of f, and is left. Both cavities must leave the same.
+//! or wait themselves; a facet with all vertices on f is a triangle of f, and is left. Both cavities must leave the
+//! same.
 //!
 //! # Why all facets of R that do not cross are walls
-//! They are in the new CDT, so it does no harm to demand them, and other polygons in R cannot be displaced. The flips of
-//! paper §3.2 turn the old CDT into the new one and only remove facets that have ceased to be locally regular. Vertices
-//! rise at the rate r = max(0, d), d the distance from f. On a facet that does not cross, r equals an affine function, d or
-//! 0, that r is nowhere below; so the facet sinks relative to all other vertices, and stays locally regular.
+//! They are in the new CDT, so it does no harm to demand them, and other polygons in R cannot be displaced. The flips
+//! of paper §3.2 turn the old CDT into the new one and only remove facets that have ceased to be locally regular.
+//! Vertices rise at the rate r = max(0, d), d the distance from f. On a facet that does not cross, r equals an affine
+//! function, d or 0, that r is nowhere below; so the facet sinks relative to all other vertices, and stays locally
+//! regular.
 //!
 //! # Visibility
 //! Let p be the centroid of abc. A vertex u is taken as *visible* if the open segment pu touches no wall, not even the
 //! border of one.
 //! - The apex v is visible: pv is in the interior of the tetrahedron abcv of the CDT, where no wall is.
-//! - A vertex u in front of abc and inside the sphere of abcv is not: from no point q in the interior of abcv is it visible,
-//!   so each segment qu meets a wall. Let q go to p: one wall meets the closed segment pu. If it does so at p it is abc,
-//!   but then u is behind abc. If it does so at u alone, the points where it meets qu tend to u, so its cone at u, which
-//!   is closed, holds the direction to p, and it meets the open segment, too.
+//! - A vertex u in front of abc and inside the sphere of abcv is not: from no point q in the interior of abcv is it
+//!   visible, so each segment qu meets a wall. Let q go to p: one wall meets the closed segment pu. If it does so at p
+//!   it is abc, but then u is behind abc. If it does so at u alone, the points where it meets qu tend to u, so its cone
+//!   at u, which is closed, holds the direction to p, and it meets the open segment, too.
 //!
 //! So v is the first visible vertex in the order in which the growing sphere reaches them. Perturbed weights make
 //! that a strict order (`insphere` is not zero, as v is not coplanar with abc); positions, and so visibility, are not
 //! perturbed. f itself need be no wall: pu is strictly on one side of it, but for u.
 //!
 //! # What is certain
-//! Every sign is exact. If f is flat, in an edge-protected PLC, the CDT exists and is found. Otherwise gift wrapping may be
-//! [`Refused`]. What is returned has positive tetrahedra that match facet by facet, inside a boundary that is that of R:
-//! they fill R, once. Across facets that are no subpolygons they are checked to be locally Delaunay.
+//! Every sign is exact. If f is flat, in an edge-protected PLC, the CDT exists and is found. Otherwise gift wrapping
+//! may be [`Refused`]. What is returned has positive tetrahedra that match facet by facet, inside a boundary that is
+//! that of R: they fill R, once. Across facets that are no subpolygons they are checked to be locally Delaunay.
 //!
-//! Complexity: each of the n_f facets finished costs a scan of the n_v vertices and, for the apex and for each vertex found
-//! invisible before it, one of the n_w walls: O(n_f·(n_v + k·n_w)), k near 1 in practice. Quadratic in the size of R.
+//! Complexity: each of the n_f facets finished costs a scan of the n_v vertices and, for the apex and for each vertex
+//! found invisible before it, one of the n_w walls: O(n_f·(n_v + k·n_w)), k near 1 in practice. Quadratic in the size
+//! of R.
 
 use super::Retriangulation;
-use super::visibility::Sight;
+use super::visibility::Visibility;
 use crate::mesh::{TetMesh, VertexId, canonical_face};
 use crate::predicate::PointStore;
 use crate::recover::region::{Region, Side, Sides};
@@ -143,7 +146,7 @@ fn apexes(&[a, b, c, d]: &[VertexId; 4]) -> [(Facet, VertexId); 4] {
 struct Cavity<'a, P> {
     /// The vertices of the tetrahedra of R on this side and on f.
     vertices: Vec<VertexId>,
-    sight: Sight<'a, P>,
+    visibility: Visibility<'a, P>,
     /// Whether the tetrahedron in front of a facet has been found. A facet that is not here was not met yet.
     finished: FxHashMap<Facet, bool>,
     /// The facets to be finished, and some that already are.
@@ -180,7 +183,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
         let is_twice = |&s: &Facet| s[1] > s[2] && finished.contains_key(&reversed(s));
         let walls = waiting.iter().copied().filter(|s| !is_twice(s)).collect();
         Cavity {
-            sight: Sight::new(sides.points(), walls),
+            visibility: Visibility::new(sides.points(), walls),
             vertices,
             finished,
             waiting,
@@ -218,7 +221,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
 
     /// The vertex that the growing sphere through `s` reaches first in front, of those visible.
     fn apex(&self, s: Facet) -> Option<VertexId> {
-        let points = self.sight.points();
+        let points = self.visibility.points();
         let [a, b, c] = s;
         let mut invisible: Vec<VertexId> = Vec::new();
         loop {
@@ -233,7 +236,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
                         v
                     }
                 })?;
-            if self.sight.is_visible(first, s) {
+            if self.visibility.is_visible(first, s) {
                 return Some(first);
             }
             invisible.push(first);

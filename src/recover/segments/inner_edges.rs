@@ -1,8 +1,9 @@
-//! Edges inside a set of tetrahedra: those whose tetrahedra are all in it. When a conflict zone is replaced they vanish,
-//! and all other edges stay.
+//! Edges inside a set of tetrahedra: those whose tetrahedra are all in it. When a conflict zone is replaced they
+//! vanish, and all other edges stay.
 //!
-//! An edge is found by turning around it, once: from the tetrahedron with the smallest id, and not at all if the set ends
-//! next to that, or if nobody asks for it. Time linear in the set, but for the turns, which mostly end after a step or two.
+//! An edge is found by turning around it, once: from the tetrahedron with the smallest id, and not at all if the set
+//! ends next to that, or if nobody asks for it. Time linear in the set, but for the turns, which mostly end after a
+//! step or two.
 
 use crate::mesh::{TetId, TetMesh, VertexId};
 
@@ -17,8 +18,8 @@ static EDGES: [[usize; 4]; 6] = [
 ];
 
 /// Calls `visit` for each finite edge that is `wanted` and all of whose tetrahedra are in a set, once, in an order that
-/// depends on the order of the set. An edge is passed over where `narrow`, called with what it gave for the tetrahedron before (`start` for the
-/// first), gives `None` for one of its tetrahedra.
+/// depends on the order of the set. An edge is passed over where `narrow`, called with what it gave for the tetrahedron
+/// before (`start` for the first), gives `None` for one of its tetrahedra.
 pub(super) fn inner_edges<S: Copy>(
     mesh: &TetMesh,
     set: &[TetId],

@@ -1,10 +1,11 @@
 //! Which vertices obstruct an edge: a few of them because of which no sphere through a and b is empty.
 //!
-//! The centres of the spheres through a and b form a plane, and each vertex p allows a half-plane of it: |p − c| ≥ |a − c| is
-//! linear in c. Whether these have a point in common is a linear program in two variables; if not, three of them have none
-//! (Helly), and then the edge is missing in the Delaunay tetrahedralization of a, b and those three vertices already. The
-//! program is solved in floats, incrementally (Seidel 1991), with the point nearest to the middle of ab as the optimum; what
-//! it finds is proved by exact predicates on the five vertices. So an obstruction is certain, its absence is not.
+//! The centres of the spheres through a and b form a plane, and each vertex p allows a half-plane of it: |p − c| ≥ |a −
+//! c| is linear in c. Whether these have a point in common is a linear program in two variables; if not, three of them
+//! have none (Helly), and then the edge is missing in the Delaunay tetrahedralization of a, b and those three vertices
+//! already. The program is solved in floats, incrementally (Seidel 1991), with the point nearest to the middle of ab as
+//! the optimum; what it finds is proved by exact predicates on the five vertices. So an obstruction is certain, its
+//! absence is not.
 //!
 //! Linear time if few constraints are violated in turn, quadratic at worst.
 
@@ -24,8 +25,8 @@ pub(super) fn is_obstructed<P: PointStore>(
     no_common_point(&planes).is_some_and(|w| proves(points, [a, b], w.map(|i| others[i])))
 }
 
-/// Whether the edge ab is missing in the Delaunay tetrahedralization of a, b and three vertices: it passes through their
-/// triangle, and b is outside the sphere through them and a. No if in doubt.
+/// Whether the edge ab is missing in the Delaunay tetrahedralization of a, b and three vertices: it passes through
+/// their triangle, and b is outside the sphere through them and a. No if in doubt.
 fn proves<P: PointStore>(points: &P, [a, b]: [VertexId; 2], [p, q, r]: [VertexId; 3]) -> bool {
     let below = points.orient3d([a, p, q, r]);
     if below.is_zero() || points.orient3d([b, p, q, r]) != -below {
@@ -140,7 +141,8 @@ mod tests {
                     found += usize::from(obstructed);
                 }
             }
-            // Where no five points are cospherical, floats that are less exact than the predicates miss next to nothing.
+            // Where no five points are cospherical, floats that are less exact than the predicates miss next to
+            // nothing.
             if jitter == 1 && missing >= 20 {
                 prop_assert!(4 * found >= 3 * missing, "{} of {}", found, missing);
             }

@@ -1,12 +1,12 @@
 //! Removal of Steiner points that turned out unnecessary.
 //!
-//! A Steiner point can be removed if its two neighbours on the segment are then joined by an edge. Its other edges are no
-//! subsegments, and the edges around its star stay, so nothing else has to be looked at. Every removal is exact, and the
-//! mesh stays the Delaunay tetrahedralization of what is left; no point is left that could be removed alone.
+//! A Steiner point can be removed if its two neighbours on the segment are then joined by an edge. Its other edges are
+//! no subsegments, and the edges around its star stay, so nothing else has to be looked at. Every removal is exact, and
+//! the mesh stays the Delaunay tetrahedralization of what is left; no point is left that could be removed alone.
 //!
-//! Each trial tetrahedralizes the neighbours of one point ([`crate::delaunay::filling`]), unless three of these are seen to
-//! obstruct the edge that is to appear ([`super::obstruction`]), as they nearly always do; after a removal those around are
-//! tried again.
+//! Each trial tetrahedralizes the neighbours of one point ([`crate::delaunay::filling`]), unless three of these are
+//! seen to obstruct the edge that is to appear ([`super::obstruction`]), as they nearly always do; after a removal
+//! those around are tried again.
 
 use super::obstruction::is_obstructed;
 use super::recovery::Recovered;

@@ -1,5 +1,5 @@
-//! Finds segments of the input by their ends: the segments in order of the end with the smaller id, and where those of each
-//! vertex begin.
+//! Finds segments of the input by their ends: the segments in order of the end with the smaller id, and where those of
+//! each vertex begin.
 
 use crate::mesh::VertexId;
 use crate::plc::Complex;

@@ -38,9 +38,9 @@ const SLACK: f64 = 0.05;
 ///    Two subsegments of equal length at a small angle do not encroach upon each other (an isosceles triangle has acute
 ///    base angles), so this ends. No bits are saved here: equal distances must be equal up to rounding, or each segment
 ///    of a fan has to be split again a little beside the points of each other.
-/// 2. If there already is a point at that distance, and the segment has many: at a distance from the hub that is a short
-///    dyadic number in absolute units, so that all segments of a fan are split on the same spheres. Not at once, because
-///    strips of long triangles, which are no fans, are split best in the middle.
+/// 2. If there already is a point at that distance, and the segment has many: at a distance from the hub that is a
+///    short dyadic number in absolute units, so that all segments of a fan are split on the same spheres. Not at once,
+///    because strips of long triangles, which are no fans, are split best in the middle.
 /// 3. Otherwise the reference point's projection onto the subsegment, or the middle if that is too close to an end.
 pub fn split_parameter(s: &Subsegment, reference: Option<Reference>) -> Option<f64> {
     let [t0, t1] = s.range;
@@ -131,7 +131,7 @@ pub(super) fn fewest_bits(t: f64, slack: f64) -> f64 {
 
 /// The cosine-like measure by which the vertex p sees ab: smaller for larger angles, negative inside the diametral
 /// sphere.
-pub fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
+pub fn angle_measure(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     let (u, v) = (minus(a, p), minus(b, p));
     dot(u, v) / (dot(u, u) * dot(v, v)).sqrt()
 }

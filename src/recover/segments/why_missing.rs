@@ -1,5 +1,5 @@
-//! Why a segment cannot be recovered: a vertex lies on it, another segment meets it or comes too close, or coordinates are too
-//! coarse to divide it any further. Exact.
+//! Why a segment cannot be recovered: a vertex lies on it, another segment meets it or comes too close, or coordinates
+//! are too coarse to divide it any further. Exact.
 
 use super::recovery::SegmentRecovery;
 use crate::error::{Failure, GaveUp, InvalidPlc};

@@ -1,27 +1,28 @@
 //! Shims of the domain, repaired where a flip does it (paper, end of §3.1 and of §3.2).
 //!
-//! A *shim* is a tetrahedron with all four vertices on one polygon f that had to be cut. The edges of f's pieces are edges
-//! of the Delaunay tetrahedralization, and that leaves little to repair inside the domain:
+//! A *shim* is a tetrahedron with all four vertices on one polygon f that had to be cut. The edges of f's pieces are
+//! edges of the Delaunay tetrahedralization, and that leaves little to repair inside the domain:
 //!
-//! *Let ab and cd be edges of a Delaunay tetrahedralization that cross in projection, abcd a tetrahedron, and p a vertex
-//! beyond the two faces of abcd at ab, or those at cd, and beyond no other. Then p is not in the circumsphere of abcd.* For
-//! otherwise the Delaunay tetrahedralization of these five points would be the one without that edge; but an edge that is
-//! Delaunay is so among any of the vertices that it belongs to. So whichever side of abcd the surface of f runs along, a
-//! flip that removes abcd makes a face that is not locally Delaunay, but for ties, five points exactly on one sphere: abcd
-//! "genuinely belongs in the CDT", and only a Steiner point would remove it. What can be done without is this.
+//! *Let ab and cd be edges of a Delaunay tetrahedralization that cross in projection, abcd a tetrahedron, and p a
+//! vertex beyond the two faces of abcd at ab, or those at cd, and beyond no other. Then p is not in the circumsphere of
+//! abcd.* For otherwise the Delaunay tetrahedralization of these five points would be the one without that edge; but an
+//! edge that is Delaunay is so among any of the vertices that it belongs to. So whichever side of abcd the surface of f
+//! runs along, a flip that removes abcd makes a face that is not locally Delaunay, but for ties, five points exactly on
+//! one sphere: abcd "genuinely belongs in the CDT", and only a Steiner point would remove it. What can be done without
+//! is this.
 //!
 //! - *2-2.* Where the domain is on one side of f only, the choice between ab and cd is free: with a shim next to the
-//!   outside the surface of f runs along the wrong side of it. It is moved to the other side, and the shim is outside. No
-//!   tetrahedron that is kept changes, so all their other faces are locally Delaunay as before.
-//! - *3-2 and 4-4*, of an edge of the shim, with the surface of f moved along: accepted if all new tetrahedra
-//!   are positive, and all faces on no polygon are locally Delaunay (without perturbation) afterwards: exact tests before
+//!   outside the surface of f runs along the wrong side of it. It is moved to the other side, and the shim is outside.
+//!   No tetrahedron that is kept changes, so all their other faces are locally Delaunay as before.
+//! - *3-2 and 4-4*, of an edge of the shim, with the surface of f moved along: accepted if all new tetrahedra are
+//!   positive, and all faces on no polygon are locally Delaunay (without perturbation) afterwards: exact tests before
 //!   anything changes.
 //!
-//! What remains is reported. The moved surface is one to one in projection, has the same boundary, and loses no segment.
-//! Shims are tried in the order of their vertices, so that equal meshes are repaired equally.
+//! What remains is reported. The moved surface is one to one in projection, has the same boundary, and loses no
+//! segment. Shims are tried in the order of their vertices, so that equal meshes are repaired equally.
 //!
-//! The repair is of what is written, not of the tetrahedralization in which polygons are inserted and deleted. Linear time,
-//! but for the degrees of edges of shims.
+//! The repair is of what is written, not of the tetrahedralization in which polygons are inserted and deleted. Linear
+//! time, but for the degrees of edges of shims.
 
 mod edge_flip;
 
@@ -30,9 +31,8 @@ use crate::number::Sign;
 use crate::predicate::PointStore;
 use crate::recover::domain::DomainMarks;
 use crate::recover::flatten::{Pieces, Plane, ShimCounts};
-use crate::recover::segments::{SegmentIndex, Subsegments};
-use crate::recover::subpolygons::Subpolygons;
-use crate::recover::subpolygons::face;
+use crate::recover::segments::Subsegments;
+use crate::recover::subpolygons::{Subpolygons, face};
 use std::borrow::Cow;
 
 /// Which polygons that were cut each vertex is on.
@@ -98,8 +98,6 @@ pub struct Repair<'a, P> {
     pub pieces: &'a Pieces,
     /// The segments as they are in the mesh.
     pub subsegments: &'a Subsegments,
-    /// Finds segments of the input.
-    pub index: &'a SegmentIndex,
 }
 
 impl<P: PointStore> Repair<'_, P> {
@@ -208,9 +206,7 @@ impl<P: PointStore> Repair<'_, P> {
         if !is_inner([a, c, d]) || !is_inner([b, c, d]) || !self.is_convex(f, [a, c, b, d]) {
             return false;
         }
-        if self.subsegments.segment_of(a, b).is_some()
-            || self.subsegments.share_segment(self.index, c, d)
-        {
+        if self.subsegments.segment_of(a, b).is_some() || self.subsegments.share_segment(c, d) {
             return false;
         }
         // All others at ab are outside, and ab is on nothing else; cd is inside, on nothing.
@@ -246,8 +242,9 @@ mod tests {
     use crate::recover::subpolygons::Face;
     use std::sync::Arc;
 
-    /// A quadrilateral 0123 that is not flat, 4 exactly on the circumsphere of its corners, 5 beyond it on the other side.
-    /// Of the two triangulations of 01234 the perturbation prefers the one with the shim 0123; a 3-2 flip removes it.
+    /// A quadrilateral 0123 that is not flat, 4 exactly on the circumsphere of its corners, 5 beyond it on the other
+    /// side. Of the two triangulations of 01234 the perturbation prefers the one with the shim 0123; a 3-2 flip removes
+    /// it.
     #[test]
     fn a_flip_removes_a_shim_on_one_sphere() {
         let e = 2f64.powi(-48);
@@ -291,7 +288,7 @@ mod tests {
         let triangle = |v: [usize; 3]| face(v.map(VertexId::new));
         let lower = [(triangle([0, 1, 3]), 0), (triangle([1, 2, 3]), 1)];
         let upper = [(triangle([0, 1, 2]), 0), (triangle([0, 2, 3]), 1)];
-        let (index, subsegments) = (SegmentIndex::new(&pieces.complex), Subsegments::default());
+        let subsegments = Subsegments::default();
         let incidence = Incidence::new(&mesh, 6);
         // Wherever the surface runs, below the shim or above it.
         for surface in [lower, upper] {
@@ -310,7 +307,6 @@ mod tests {
                 },
                 pieces: &pieces,
                 subsegments: &subsegments,
-                index: &index,
             };
             let counts = repair.run(false);
             let expected = ShimCounts {
