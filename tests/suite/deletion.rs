@@ -116,7 +116,7 @@ fn delete(cdt: &mut Cdt, f: usize) -> DeletionCounts {
         assert_eq!(tets(&rug), tets(&exact));
     }
     for times in [
-        FlipOrder::new(NumberType::F64),
+        FlipOrder::new(NumberType::F64Plain),
         FlipOrder::new(NumberType::F32),
     ] {
         match rounded.delete_polygon_by(f, times) {

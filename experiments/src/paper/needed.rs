@@ -49,7 +49,7 @@ pub fn files(sheets: &Sheets) -> Result<Vec<File>, SheetError> {
 
 const FIG_9_POINTS: [(&str, &str, &str); 4] = [
     ("cavity", "insertion=cavity, outcome=ok", "cavity "),
-    ("f64", "times=f64, outcome=ok", "flip f64"),
+    ("f64", "times=f64:plain, outcome=ok", "flip f64:plain"),
     ("filtered", "times=filtered, outcome=ok", "flip filtered"),
     ("exact", "times=exact, outcome=ok", "flip exact"),
 ];
@@ -63,7 +63,7 @@ const FIG_9: [Column; 8] = [
     ),
     (
         "\\fsixtyfour",
-        "only[times=f64](median_milliseconds)",
+        "only[times=f64:plain](median_milliseconds)",
         Format::Rough,
     ),
     (
@@ -78,7 +78,7 @@ const FIG_9: [Column; 8] = [
     ),
     (
         "$\\frac{\\text{\\fsixtyfour}}{\\text{cavity}}$",
-        "only[times=f64](ratio_to_cavity)",
+        "only[times=f64:plain](ratio_to_cavity)",
         Format::Ratio,
     ),
     (
@@ -119,7 +119,7 @@ fn fig9(sheets: &Sheets) -> Result<String, SheetError> {
 const COST: [Column; 8] = [
     (
         "\\fsixtyfour",
-        "only[method=flip f64](median_milliseconds)",
+        "only[method=flip f64:plain](median_milliseconds)",
         Format::Rough,
     ),
     (
@@ -169,7 +169,7 @@ fn cost(sheets: &Sheets) -> Result<String, SheetError> {
     for (input, rows) in Rows::all(sheets.get("exactness_cost-summary")?).by("input")? {
         let sizes = rows.by("about")?;
         for (about, rows) in [&sizes[0], &sizes[sizes.len() - 1]] {
-            let floats = rows.only("method=flip f64")?;
+            let floats = rows.only("method=flip f64:plain")?;
             let ok = format!(
                 "{} of {}",
                 floats.text("succeeded")?,
@@ -189,7 +189,7 @@ fn cost(sheets: &Sheets) -> Result<String, SheetError> {
 /// Number types and their heads.
 const TYPES: [(&str, &str); 7] = [
     ("f32", "\\fthirtytwo"),
-    ("f64", "\\fsixtyfour"),
+    ("f64:plain", "\\fsixtyfour"),
     ("bits:106", "106 bits"),
     ("bits:256", "256 bits"),
     ("naive", "naive"),
@@ -262,7 +262,7 @@ fn outcomes(sheets: &Sheets) -> Result<String, SheetError> {
             table.rule();
         }
         let mut row = vec![name.to_string()];
-        for times in ["f32", "f64", "naive"] {
+        for times in ["f32", "f64:plain", "naive"] {
             row.push(whole(all.number(&format!("sum[times={times}]({what})"))?));
         }
         table.row(&row);

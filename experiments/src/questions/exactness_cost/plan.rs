@@ -84,7 +84,7 @@ pub fn methods() -> Vec<Method> {
         "106".parse::<Bits>().expect("there are 106 bits"),
     ));
     let times = [
-        FlipOrder::new(NumberType::F64),
+        FlipOrder::new(NumberType::F64Plain),
         FlipOrder::new(NumberType::F32),
         FlipOrder::FILTERED,
         FlipOrder::EXACT,
@@ -116,7 +116,7 @@ pub fn is_slow(method: Method) -> bool {
     match method.0 {
         Insertion::Flip(order) => !matches!(
             order.numbers,
-            NumberType::F32 | NumberType::F64 | NumberType::Filtered
+            NumberType::F32 | NumberType::F64Plain | NumberType::Filtered
         ),
         Insertion::Cavity => false,
         Insertion::GiftWrap => true,
@@ -148,7 +148,10 @@ mod tests {
             let names = methods_for(about).into_iter().map(|m| m.to_string());
             names.collect::<Vec<String>>().join(", ")
         };
-        assert_eq!(names(100_000), "flip f64, flip f32, flip filtered, cavity");
+        assert_eq!(
+            names(100_000),
+            "flip f64:plain, flip f32, flip filtered, cavity"
+        );
         assert!(names(30_000).contains("exact") && !names(30_000).contains("gift"));
         assert_eq!(methods_for(500), methods());
         assert_eq!(methods_for(1000).len(), methods().len() - 1);

@@ -55,7 +55,7 @@ fn summary(class: &[Row], method: Method) -> Option<Summary> {
         median_microseconds_per_tet: median_of(&|r| {
             Some(r.median_seconds? * 1e6 / r.crossing_tets as f64)
         }),
-        ratio_to_f64: ratio_to("flip f64"),
+        ratio_to_f64: ratio_to("flip f64:plain"),
         ratio_to_cavity: ratio_to("cavity"),
         by_floats: median_of(&|r| r.by_floats),
         by_exact_quotients: median_of(&|r| r.by_exact_quotients),
@@ -137,7 +137,7 @@ pub fn table(summaries: &[Summary], methods: &[Method]) -> String {
     );
     for class in summaries.chunk_by(|a, b| (a.input, a.about) == (b.input, b.about)) {
         let of = |method: &str| class.iter().find(|s| s.method == method);
-        let milliseconds = of("flip f64").and_then(|s| s.median_milliseconds);
+        let milliseconds = of("flip f64:plain").and_then(|s| s.median_milliseconds);
         text += &format!(
             "{:<16} {:>7} {:>10}",
             class[0].input,

@@ -65,12 +65,17 @@ mod tests {
             .iter()
             .position(|r| r.times.is_exact())
             .expect("an exact run");
+        let rounded = good
+            .runs
+            .iter()
+            .position(|r| !r.times.is_exact())
+            .expect("a rounded run");
         assert_each_can_fail(
             expectations,
             &[good],
             &[
                 (&|m| m.runs[exact].disorder.kendall = 1, &[0]),
-                (&|m| m.runs[0].outcome = DIFFERENT, &[1]),
+                (&|m| m.runs[rounded].outcome = DIFFERENT, &[1]),
                 (&|m| m.cavity_agrees = false, &[2]),
                 (&|m| m.gift_wrap_agrees = false, &[3]),
                 (&|m| m.verified = Some(false), &[4]),
