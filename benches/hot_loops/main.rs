@@ -19,7 +19,8 @@ criterion_group! {
         .sample_size(20)
         .warm_up_time(Duration::from_millis(500))
         .measurement_time(Duration::from_secs(2));
-    targets = predicates::predicates, delaunay::walk, delaunay::insertion, delaunay::tetrahedralization, flips::flip_times,
+    targets = predicates::predicates, delaunay::walk, delaunay::insertion, delaunay::tetrahedralization,
+    flips::flip_times,
         flips::comparison, flips::queue, flips::flips, polygon::insertion
 }
 criterion_main!(hot_loops);

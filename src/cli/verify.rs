@@ -92,8 +92,8 @@ pub(crate) fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
             let merged = &lenient.counts.segments_merged;
             let more = merged.saturating_sub(verdict.counts.segments_merged);
             let text = format!(
-                "{more} facet edges of the input are missing between facets that meet at {} degrees or more: the mesh's \
-                 maker merged facets that are not exactly coplanar; they are verified as merged (see --strict)",
+                "{more} facet edges of the input are missing between facets that meet at {} degrees or more: the \
+                 mesh's maker merged facets that are not exactly coplanar; they are verified as merged (see --strict)",
                 arguments.merge_angle
             );
             merged_by_angle = Some(Note::new(NoteCode::MergedByAngle, more, text));

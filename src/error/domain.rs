@@ -66,8 +66,8 @@ impl DomainError {
                     .to_owned()
             }
             DomainError::Open { edges } => format!(
-                "the surface is open: at {} the outside is on both sides of a facet that ends there: {}; --hull keeps the \
-                 convex hull of the vertices",
+                "the surface is open: at {} the outside is on both sides of a facet that ends there: {}; --hull keeps \
+                 the convex hull of the vertices",
                 count_edges(edges),
                 names.edges(edges)
             ),

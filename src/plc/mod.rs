@@ -1,4 +1,5 @@
-//! Piecewise linear complexes: what a user gives ([`Plc`](crate::exchange::Plc), paper §2), and what the algorithms take ([`Complex`]).
+//! Piecewise linear complexes: what a user gives ([`Plc`](crate::exchange::Plc), paper §2), and what the algorithms
+//! take ([`Complex`]).
 
 mod build;
 mod complex;

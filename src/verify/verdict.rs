@@ -190,8 +190,8 @@ impl fmt::Display for Verdict {
         if c.steiner_vertices > 0 {
             writeln!(
                 f,
-                "tolerance: Steiner points count as on segments and facets up to {:e}; {} faces of the boundary compared \
-                 with those near them",
+                "tolerance: Steiner points count as on segments and facets up to {:e}; {} faces of the boundary \
+                 compared with those near them",
                 c.tolerance, c.faces_compared
             )?;
         }

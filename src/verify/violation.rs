@@ -108,14 +108,12 @@ pub enum Violation {
         tets: [usize; 2],
     },
     /// The mesh lists a face that is on no facet, and not on the boundary.
-    #[error("listed face {index}, {}, {}, {}, covers no facet{}", .face[0], .face[1], .face[2], facet_of(.facet))]
+    #[error("listed face {index}, {}, {}, {}, is on no facet", .face[0], .face[1], .face[2])]
     ListedNotOnFacet {
         /// Its index in the list.
         index: usize,
         /// Its vertices.
         face: [Place; 3],
-        /// A facet that its vertices are on, but which other faces cover.
-        facet: Option<usize>,
     },
     /// The mesh lists faces, but not one that covers a facet.
     #[error("the face {}, {}, {} covers facet {facet} but is not listed", .face[0], .face[1], .face[2])]

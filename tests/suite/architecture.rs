@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of the crate, lowest first.
-const ROOMS: &str = "machine threads clock number mesh exchange predicate kinetic delaunay plc error recover update report \
-                     check repair cdt format generate verify lab cli lib main";
+const ROOMS: &str = "machine threads clock number mesh exchange predicate kinetic delaunay plc error recover update \
+                     report check repair cdt format generate verify lab cli lib main";
 
 /// Rooms with rooms of their own, lowest first.
 const INNER: [(&str, &str); 2] = [

@@ -152,7 +152,12 @@ proptest! {
 
     /// Deleting and inserting a polygon is the identity, also with Steiner points on it.
     #[test]
-    fn deletion_is_undone(plc in walls(), s in [factor(), factor(), factor()], turn in [0.0..7.0, 0.0..7.0], which in any::<prop::sample::Index>()) {
+    fn deletion_is_undone(
+        plc in walls(),
+        s in [factor(), factor(), factor()],
+        turn in [0.0..7.0, 0.0..7.0],
+        which in any::<prop::sample::Index>(),
+    ) {
         for plc in [stretched(plc.clone(), s), turned(plc, turn)] {
             let mut report = Report::default();
             let filtered = Insertion::Flip(FlipOrder::FILTERED);

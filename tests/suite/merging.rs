@@ -202,7 +202,13 @@ proptest! {
                 let (i, j) = (n % N, n / N);
                 let [a, b, c, d] = [lattice(i, j), lattice(i + 1, j), lattice(i + 1, j + 1), lattice(i, j + 1)];
                 let (x, y) = (i as isize, j as isize);
-                for (edge, neighbor) in [([a, b], (x, y - 1)), ([b, c], (x + 1, y)), ([c, d], (x, y + 1)), ([d, a], (x - 1, y))] {
+                let sides = [
+                    ([a, b], (x, y - 1)),
+                    ([b, c], (x + 1, y)),
+                    ([c, d], (x, y + 1)),
+                    ([d, a], (x - 1, y)),
+                ];
+                for (edge, neighbor) in sides {
                     if !is_used(neighbor.0, neighbor.1) {
                         let [a, b] = edge;
                         expected.push(if counterclockwise { [a, b] } else { [b, a] });

@@ -82,7 +82,8 @@ fn survey(cases: u64, insertions: &[Insertion]) -> Vec<String> {
                 }
             }
             println!(
-                "{name} {insertion:?}: {not_flat} polygons not flat; meshes with Steiner points for them: {refined}, with some left whole: {left_whole}; shims repaired: {repaired}, kept: {kept}"
+                "{name} {insertion:?}: {not_flat} polygons not flat; meshes with Steiner points for \
+                 them: {refined}, with some left whole: {left_whole}; shims repaired: {repaired}, kept: {kept}"
             );
             assert!(
                 not_flat > 0,

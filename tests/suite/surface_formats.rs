@@ -390,9 +390,9 @@ fn medit_says_where_it_is_wrong() {
         ("1 3 4 2 0", "1 3 4 0 0", 16, index(0, 1, 8)),
         (
             "1 3 4 2 0",
-            "1 3 4 2 4294967296",
+            "1 3 4 2 18446744073709551616",
             16,
-            token("4294967296", "a marker of 32 bits"),
+            token("18446744073709551616", "a whole number"),
         ),
         ("Corners 2", "Corners 3", 23, token("Normals", "a number")),
         ("End\n", "", 29, Truncated("End")),

@@ -40,7 +40,8 @@ pub fn replay(member: Member, times: FlipOrder) -> String {
         }
         for (vertices, triangles) in &piece.locked_halves {
             text += &format!(
-                "  one half, {vertices} vertices and {triangles} triangles beside the polygon, has no tetrahedralization\n"
+                "  one half, {vertices} vertices and {triangles} triangles beside the polygon, has no \
+                 tetrahedralization\n"
             );
         }
     }
@@ -86,7 +87,8 @@ fn describe<P: PointStore>(points: &P, insertion: &Insertion, times: FlipOrder) 
     let d = disorder(points, insertion, times);
     let _ = writeln!(
         text,
-        "{} events taken off alive (first column: their places in the exact order), {} pairs in the wrong order, list L at most {}, {} left",
+        "{} events taken off alive (first column: their places in the exact order), {} pairs in the wrong \
+         order, list L at most {}, {} left",
         d.events, d.kendall, d.longest_list, d.list_left
     );
     text
