@@ -190,7 +190,11 @@ fn tets_in<T: FlipNumbers>(cdt: &Cdt, numbers: &T) -> Result<Vec<[VertexId; 4]>,
 }
 
 fn sorted_tets(cdt: &Cdt) -> Vec<[VertexId; 4]> {
-    let mut tets: Vec<[VertexId; 4]> = cdt.mesh.finite().map(|t| cdt.mesh.vertices(t)).collect();
+    let mut tets: Vec<[VertexId; 4]> = cdt
+        .mesh()
+        .finite()
+        .map(|t| cdt.mesh().vertices(t))
+        .collect();
     for tet in &mut tets {
         tet.sort_unstable();
     }

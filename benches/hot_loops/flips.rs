@@ -26,23 +26,23 @@ impl Scene {
     fn new() -> Scene {
         let cdt = before_polygon(1500);
         let polygon = &cdt.complex().polygons[0];
-        let sides = Sides::new(&cdt.points, polygon, polygon.vertices.iter().copied());
-        let mut finite = cdt.mesh.finite();
-        let seed = finite.find(|&t| sides.crosses_tet(&cdt.mesh, t));
+        let sides = Sides::new(cdt.points(), polygon, polygon.vertices.iter().copied());
+        let mut finite = cdt.mesh().finite();
+        let seed = finite.find(|&t| sides.crosses_tet(cdt.mesh(), t));
         let region = Region::grow(
-            &cdt.mesh,
+            cdt.mesh(),
             &sides,
             seed.expect("the rectangle cuts the slab"),
         );
         let event = |c: Corner| {
-            let [x, y, z] = cdt.mesh.facet(c);
+            let [x, y, z] = cdt.mesh().facet(c);
             Event {
-                circuit: [cdt.mesh.vertex(c), x, y, z, cdt.mesh.apex_across(c)],
+                circuit: [cdt.mesh().vertex(c), x, y, z, cdt.mesh().apex_across(c)],
                 tet: c.tet(),
                 signs: Signs::UNKNOWN,
             }
         };
-        let corners = region.crossing_triangles(&cdt.mesh, &sides);
+        let corners = region.crossing_triangles(cdt.mesh(), &sides);
         let triangles = corners.into_iter().map(event).collect();
         drop(finite);
         Scene { cdt, triangles }
@@ -51,10 +51,10 @@ impl Scene {
     /// Lets `task` work with what moves while the rectangle is inserted.
     fn with_motion<T>(&self, task: impl FnOnce(&PolygonMotion<'_, DoublePoints>) -> T) -> T {
         let polygon = &self.cdt.complex().polygons[0];
-        let sides = Sides::new(&self.cdt.points, polygon, polygon.vertices.iter().copied());
+        let sides = Sides::new(self.cdt.points(), polygon, polygon.vertices.iter().copied());
         let is_left = |v| sides.of(v) == Side::Left;
         task(&PolygonMotion::new(
-            &self.cdt.points,
+            self.cdt.points(),
             polygon.frame,
             &is_left,
         ))

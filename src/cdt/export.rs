@@ -25,7 +25,7 @@ const FEW: usize = 1 << 15;
 /// The number of what is not in the mesh, among regions and polygons.
 const NONE: u32 = 0;
 
-impl Cdt<DoublePoints> {
+impl Cdt {
     /// The mesh as arrays: what the facets enclose without holes, or the convex hull. Tetrahedra, faces and edges are
     /// in an order that depends on their vertices alone, so that equal meshes give equal files. What the input says
     /// in vain, points outside of everything for instance, is in the report's notes.
@@ -41,26 +41,24 @@ impl Cdt<DoublePoints> {
     ) -> Result<ExportedMesh, Failure> {
         report.time(Phase::Domain, |report| {
             check_embedding(
-                &self.pieces.complex,
-                &self.subsegments,
-                &self.index,
-                (&self.subpolygons, self.points.len()),
-                &self.inserted,
+                &self.plc.pieces.complex,
+                &self.plc.subsegments,
+                (&self.cdt.subpolygons, self.plc.points.len()),
+                &self.cdt.inserted,
             )?;
-            let n = self.points.len();
-            let walls = SimplexIndex::of_triangles(n, self.subpolygons.iter());
-            let components = Components::new(&self.mesh, &walls);
+            let n = self.plc.points.len();
+            let walls = SimplexIndex::of_triangles(n, self.cdt.subpolygons.iter());
+            let components = Components::new(&self.cdt.mesh, &walls);
             let open = self.open_edges(&components);
             let inside = self.inside(plc, &walls, &components, &open, keep_hull, report)?;
             let mut repair = Repair {
-                points: &self.points,
-                mesh: Cow::Borrowed(&self.mesh),
-                incidence: Cow::Borrowed(&self.incidence),
-                subpolygons: Cow::Borrowed(&self.subpolygons),
-                marks: inside.marks(plc, &self.mesh, &components),
-                pieces: &self.pieces,
-                subsegments: &self.subsegments,
-                index: &self.index,
+                points: &self.plc.points,
+                mesh: Cow::Borrowed(&self.cdt.mesh),
+                incidence: Cow::Borrowed(&self.cdt.incidence),
+                subpolygons: Cow::Borrowed(&self.cdt.subpolygons),
+                marks: inside.marks(plc, &self.cdt.mesh, &components),
+                pieces: &self.plc.pieces,
+                subsegments: &self.plc.subsegments,
             };
             report.flattening.shims = repair.run(!keep_hull);
             let walls = match &repair.subpolygons {
@@ -81,7 +79,7 @@ impl Cdt<DoublePoints> {
             sort_by_least(&mut tets, n, |tet| tet.0[0], |tet| tet.0);
             let regions = Regions::new(&components, tets.iter().map(|&(_, t)| t));
             let vertices: Vec<[VertexId; 4]> = tets.iter().map(|&(v, _)| v).collect();
-            let rounding = round(&self.points, &vertices);
+            let rounding = round(&self.plc.points, &vertices);
             report.moved_by_rounding = rounding.moved;
             report.spoilt_by_rounding = rounding.spoilt;
             report.notes.extend(spoilt(&report.spoilt_by_rounding, plc));
@@ -92,10 +90,10 @@ impl Cdt<DoublePoints> {
             }
             let interpolation = Interpolation {
                 plc,
-                points: &self.points,
+                points: &self.plc.points,
                 complex: &self.complex,
-                subsegments: &self.subsegments,
-                pieces: &self.pieces,
+                subsegments: &self.plc.subsegments,
+                pieces: &self.plc.pieces,
             };
             let mesh = ExportedMesh {
                 first_index: plc.first_index,
@@ -124,13 +122,15 @@ impl Cdt<DoublePoints> {
     /// The segments that one side of one polygon is on, with the components around them.
     fn open_edges(&self, components: &Components) -> Vec<OpenEdge> {
         let complex = &*self.complex;
-        let sides = open::sides(complex, &self.index, |f| self.is_inserted(f));
+        let sides = open::sides(complex, self.plc.subsegments.index(), |f| {
+            self.is_inserted(f)
+        });
         let open = (0..sides.len()).filter(|&s| sides[s] == 1);
         let mut open: Vec<OpenEdge> = open
             .map(|s| {
-                let mut chain = self.subsegments.chain(s as u32);
+                let mut chain = self.plc.subsegments.chain(s as u32);
                 let [a, b] = [(); 2].map(|()| chain.next().expect("a segment has two ends"));
-                let t = self.incidence.tet_at_edge(&self.mesh, a, b);
+                let t = self.cdt.incidence.tet_at_edge(&self.cdt.mesh, a, b);
                 let component = t.and_then(|t| components.of(t));
                 let component = component.expect("segments are edges of the mesh");
                 (open::ends_of(complex, s), component)
@@ -161,12 +161,17 @@ impl Cdt<DoublePoints> {
                 return Err(DomainError::NothingEnclosed);
             }
         }
-        let mut near = self.mesh.finite().next();
-        let mut find =
-            |kind, index, point| match locate(&self.points, &self.mesh, walls, &mut near, point) {
-                Ok(t) => Ok(t.and_then(|t| components.of(t))),
-                Err(OnPolygon) => Err(DomainError::PointOnFacet { kind, index }),
-            };
+        let mut near = self.cdt.mesh.finite().next();
+        let mut find = |kind, index, point| match locate(
+            &self.plc.points,
+            &self.cdt.mesh,
+            walls,
+            &mut near,
+            point,
+        ) {
+            Ok(t) => Ok(t.and_then(|t| components.of(t))),
+            Err(OnPolygon) => Err(DomainError::PointOnFacet { kind, index }),
+        };
         let holes: &[[f64; 3]] = if keep_hull { &[] } else { &plc.holes };
         let holes = holes.iter().enumerate();
         let holes = holes
@@ -190,10 +195,10 @@ impl Cdt<DoublePoints> {
     /// Where the points are whose coordinates are no doubles.
     fn exact_positions(&self) -> Vec<ExactPosition> {
         let first = self.complex.representative.len();
-        let steiner = (first..self.points.len()).map(VertexId::new);
-        let rounded = steiner.filter(|&v| !self.points.is_double(v));
+        let steiner = (first..self.plc.points.len()).map(VertexId::new);
+        let rounded = steiner.filter(|&v| !self.plc.points.is_double(v));
         let position = |vertex: VertexId| {
-            let (ends, t) = self.subsegments.place_of_steiner(vertex)?;
+            let (ends, t) = self.plc.subsegments.place_of_steiner(vertex)?;
             Some(ExactPosition { vertex, ends, t })
         };
         rounded
@@ -248,7 +253,7 @@ impl Cdt<DoublePoints> {
                 faces.push((face(facet), vertices, sides, polygon));
             }
         });
-        let n = self.points.len();
+        let n = self.plc.points.len();
         sort_by_least(&mut faces, n, |f| f.0[0], |f| f.0);
         let polygons = &self.complex.polygons;
         let marker = |polygon: u32| {
@@ -271,9 +276,9 @@ impl Cdt<DoublePoints> {
 
     /// The polygon of each piece.
     fn polygon_of_piece(&self) -> Vec<u32> {
-        let mut of = vec![NONE; self.pieces.complex.polygons.len()];
+        let mut of = vec![NONE; self.plc.pieces.complex.polygons.len()];
         for f in 0..self.complex.polygons.len() {
-            of[self.pieces.of(f)].fill(f as u32);
+            of[self.plc.pieces.of(f)].fill(f as u32);
         }
         of
     }
@@ -314,12 +319,12 @@ impl Cdt<DoublePoints> {
 
     /// The subsegments of the domain, whose faces are given, with their markers.
     fn edges(&self, written: &Repair<DoublePoints>, faces: &[ExportedFace]) -> Vec<ExportedEdge> {
-        let n = self.points.len();
+        let n = self.plc.points.len();
         let mut markers = Vec::new();
         let mut ends: Vec<[VertexId; 2]> = Vec::new();
         let given = self.complex.segments.len() - self.complex.diagonals;
         for (s, segment) in self.complex.segments[..given].iter().enumerate() {
-            let mut chain = self.subsegments.chain(s as u32);
+            let mut chain = self.plc.subsegments.chain(s as u32);
             let mut last = chain.next();
             for v in chain {
                 ends.extend(last.replace(v).map(|u| [u.min(v), u.max(v)]));

@@ -1,7 +1,7 @@
 //! The pipeline: a PLC in, its CDT out, one call per phase.
 //!
 //! ```text
-//! Plc ─ Complex::new ─ delaunay ─ recover_segments ─ insert_polygons ─ mark_domain ─ ExportedMesh
+//! Plc ─ Complex::new ─ delaunay ─ recover_segments ─ insert_polygons ─ export ─ ExportedMesh
 //! ```
 
 mod call;
@@ -18,15 +18,14 @@ use crate::delaunay::{delaunay, delaunay_by};
 use crate::error::{DeletionRefused, Failure};
 use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
-use crate::mesh::{Incidence, TetMesh, VertexId};
+use crate::mesh::{TetMesh, VertexId};
 use crate::plc::{Complex, PlcError};
 use crate::predicate::{DoublePoints, PointStore, Steiner};
-use crate::recover::flatten::{Pieces, flatten};
+use crate::recover::flatten::flatten;
 use crate::recover::flips::{FlipObserver, FlipRegion};
-use crate::recover::polygons::{
-    FlipOrder, Insertion, PolygonCounts, PolygonInsertion, Scratch, Subpolygons,
-};
-use crate::recover::segments::{GoOn, SegmentIndex, Subsegments, recover_segments};
+use crate::recover::polygons::{FlipOrder, Insertion, PolygonCounts, PolygonInsertion};
+use crate::recover::segments::{GoOn, recover_segments};
+use crate::recover::workspace::{ConstrainedMesh, EdgeProtectedPlc};
 use crate::report::{Phase, Report};
 use crate::update::{DeletionCounts, PolygonDeletion};
 use open::encloses_nothing;
@@ -64,24 +63,15 @@ impl Default for Options {
 /// Polygons are inserted all at once ([`Cdt::insert_polygons`]) or one by one ([`Cdt::insert_polygon`]), and deleted
 /// ([`Cdt::delete_polygon`]), in any order: which are there alone determines the tetrahedra, if they are exactly flat.
 #[derive(Clone, Debug)]
-pub struct Cdt<P = DoublePoints> {
-    /// The vertices: those of the input, then Steiner points.
-    pub points: P,
-    /// The tetrahedra, ghosts included.
-    pub mesh: TetMesh,
+pub struct Cdt {
     complex: Arc<Complex>,
-    incidence: Incidence,
-    subsegments: Subsegments,
-    index: SegmentIndex,
-    subpolygons: Subpolygons,
-    /// The polygons of the complex in exactly flat pieces.
-    pieces: Pieces,
-    /// Which pieces are in the mesh.
-    inserted: Vec<bool>,
-    scratch: Scratch,
+    /// The complex with its Steiner points, and its polygons in pieces.
+    plc: EdgeProtectedPlc<DoublePoints>,
+    /// Its tetrahedralization.
+    cdt: ConstrainedMesh,
 }
 
-impl Cdt<DoublePoints> {
+impl Cdt {
     /// The first phases: the checked complex, the Delaunay tetrahedralization of its vertices, and Steiner points until
     /// all segments are there (paper §2). Steiner points are rounded to doubles.
     ///
@@ -162,11 +152,9 @@ impl Cdt<DoublePoints> {
         report.steiner_not_doubles = points.count_not_double();
         let (mut subsegments, mut incidence) = recovered?;
         report.steiner_points_on_segment = subsegments.count_exact(&points);
-        let index = SegmentIndex::new(&complex);
         let pieces = report.time(Phase::Flattening, |report| {
             flatten(
                 &complex,
-                &index,
                 &mut points,
                 &mut delaunay,
                 &mut subsegments,
@@ -175,23 +163,28 @@ impl Cdt<DoublePoints> {
             )
         });
         report.steiner_points = points.len() - plc.vertices.len();
+        let polygons = pieces.complex.polygons.len();
         Ok(Cdt {
-            points,
-            mesh: delaunay.mesh,
-            incidence,
-            subsegments,
-            index,
-            subpolygons: Subpolygons::default(),
-            inserted: vec![false; pieces.complex.polygons.len()],
-            pieces,
-            scratch: Scratch::default(),
+            cdt: ConstrainedMesh::new(delaunay.mesh, incidence, polygons),
+            plc: EdgeProtectedPlc {
+                points,
+                subsegments,
+                pieces,
+            },
             complex,
         })
     }
-}
 
-// For one point store, so that the flips in all their number types are compiled here, once, and not in every program.
-impl Cdt<DoublePoints> {
+    /// The vertices: those of the input, then Steiner points.
+    pub fn points(&self) -> &DoublePoints {
+        &self.plc.points
+    }
+
+    /// The tetrahedra, ghosts included.
+    pub fn mesh(&self) -> &TetMesh {
+        &self.cdt.mesh
+    }
+
     /// Inserts all polygons of the complex (paper §3) that are not in the mesh. `progress` is told how many are done.
     ///
     /// # Errors
@@ -217,8 +210,8 @@ impl Cdt<DoublePoints> {
         observer: Option<&'a mut dyn FlipObserver>,
     ) -> Result<PolygonCounts, Failure> {
         // Progress is told in polygons of the complex.
-        let pieces = self.pieces.clone_firsts();
-        let cut = (0..self.complex.polygons.len()).filter(|&f| self.pieces.is_cut(f));
+        let pieces = self.plc.pieces.clone_firsts();
+        let cut = (0..self.complex.polygons.len()).filter(|&f| self.plc.pieces.is_cut(f));
         let not_flat = cut.count() as u64;
         self.insert(Ok(insertion), not_flat, report, observer, |polygons| {
             polygons.insert_all(&mut |done| {
@@ -238,7 +231,7 @@ impl Cdt<DoublePoints> {
         report: &mut Report,
         observer: Option<&'a mut dyn FlipObserver>,
     ) -> Result<PolygonCounts, Failure> {
-        let cut = (0..self.complex.polygons.len()).filter(|&f| self.pieces.is_cut(f));
+        let cut = (0..self.complex.polygons.len()).filter(|&f| self.plc.pieces.is_cut(f));
         let not_flat = cut.count() as u64;
         self.insert(Err(numbers), not_flat, report, observer, |polygons| {
             polygons.insert_all(&mut |_| ())
@@ -259,8 +252,8 @@ impl Cdt<DoublePoints> {
         if f >= self.complex.polygons.len() {
             return Err(Failure::NoSuchPolygon(f));
         }
-        let mut pieces = self.pieces.of(f);
-        let not_flat = u64::from(self.pieces.is_cut(f));
+        let mut pieces = self.plc.pieces.of(f);
+        let not_flat = u64::from(self.plc.pieces.is_cut(f));
         self.insert(Ok(insertion), not_flat, report, None, |polygons| {
             pieces.try_for_each(|piece| polygons.insert(piece))
         })
@@ -277,24 +270,13 @@ impl Cdt<DoublePoints> {
     ) -> Result<PolygonCounts, Failure> {
         report.insertion = by.ok();
         report.time(Phase::Polygons, move |report| {
-            let mut polygons = PolygonInsertion {
-                points: &self.points,
-                mesh: &mut self.mesh,
-                incidence: &mut self.incidence,
-                complex: &self.pieces.complex,
-                subsegments: &self.subsegments,
-                index: &self.index,
-                subpolygons: &mut self.subpolygons,
-                inserted: &mut self.inserted,
-                insertion: by.unwrap_or(Insertion::Flip(FlipOrder::FILTERED)),
-                counts: PolygonCounts::default(),
-                candidates: Vec::new(),
-                scratch: &mut self.scratch,
-                own_flips: by.err(),
-                observer,
-            };
+            let mut polygons = match by {
+                Ok(insertion) => PolygonInsertion::new(&self.plc, &mut self.cdt, insertion),
+                Err(numbers) => PolygonInsertion::by_own_flips(&self.plc, &mut self.cdt, numbers),
+            }
+            .observed_by(observer);
             let result = run(&mut polygons);
-            let mut counts = polygons.counts;
+            let mut counts = polygons.counts();
             counts.not_flat = not_flat;
             report.insertion_counts = counts;
             result.map(|()| counts)
@@ -303,17 +285,17 @@ impl Cdt<DoublePoints> {
 
     /// From now on, the tasks of polygon insertion are timed ([`Cdt::task_seconds`]), which slows flips down a little.
     pub fn time_tasks(&mut self) {
-        self.scratch.time_tasks();
+        self.cdt.scratch.time_tasks();
     }
 
     /// The seconds of the tasks since [`Cdt::time_tasks`]; zeros if it was not called.
     pub fn task_seconds(&self) -> TaskSeconds {
-        self.scratch.task_seconds()
+        self.cdt.scratch.task_seconds()
     }
 
-    /// Deletes polygon `f`, an index in [`Complex::polygons`], from the mesh, which becomes what it would be if `f`
-    /// had never been inserted. Its segments stay. [`Cdt::export`] then does not know the polygon: its triangles are
-    /// no faces of the mesh, and it bounds nothing.
+    /// Deletes polygon `f`, an index in [`Complex::polygons`], from the mesh, which becomes what it would be if `f` had
+    /// never been inserted. Its segments stay. [`Cdt::export`] then does not know the polygon: its triangles are no
+    /// faces of the mesh, and it bounds nothing.
     ///
     /// Bistellar flips in exact order, those of the insertion backwards (Shewchuk 2003): the time depends on the part
     /// of the mesh that changes, not on its size. A polygon that is exactly flat, with the Steiner points on its
@@ -330,15 +312,15 @@ impl Cdt<DoublePoints> {
     ///
     /// let mut report = Report::default();
     /// let mut cdt = Cdt::with_segments(&plc, true, &mut report)?;
-    /// assert_eq!(cdt.mesh.finite().count(), 3);
+    /// assert_eq!(cdt.mesh().finite().count(), 3);
     /// let f = cdt.polygon_of_facet(0).expect("facet 0 has an area");
     ///
     /// cdt.insert_polygon(f, Insertion::Flip(FlipOrder::FILTERED), &mut report)?;
-    /// assert_eq!(cdt.mesh.finite().count(), 2);
+    /// assert_eq!(cdt.mesh().finite().count(), 2);
     ///
     /// let counts = cdt.delete_polygon(f)?;
     /// assert_eq!(counts.flips.two_three, 1);
-    /// assert_eq!(cdt.mesh.finite().count(), 3);
+    /// assert_eq!(cdt.mesh().finite().count(), 3);
     ///
     /// let again = cdt.delete_polygon(f);
     /// assert_eq!(again, Err(DeletionRefused::NotInserted { facets: vec![0] }));
@@ -352,8 +334,8 @@ impl Cdt<DoublePoints> {
     }
 
     /// [`Cdt::delete_polygon`] with a choice of how flip times are represented. With exact ones the result is the same;
-    /// rounded ones may be refused where exact ones are not, but
-    /// do not end in a wrong mesh either: all other predicates are exact here, whatever `times` says.
+    /// rounded ones may be refused where exact ones are not, but do not end in a wrong mesh either: all other
+    /// predicates are exact here, whatever `order` says.
     ///
     /// # Errors
     /// The same.
@@ -368,23 +350,13 @@ impl Cdt<DoublePoints> {
             let facets = polygon.facets.clone();
             return Err(DeletionRefused::NotInserted { facets });
         }
-        let mut deletion = PolygonDeletion {
-            points: &self.points,
-            mesh: &mut self.mesh,
-            incidence: &mut self.incidence,
-            complex: &self.pieces.complex,
-            index: &self.index,
-            subsegments: &self.subsegments,
-            subpolygons: &mut self.subpolygons,
-            scratch: &mut self.scratch,
-        };
         let mut counts = DeletionCounts::default();
         let mut refused = None;
-        for piece in self.pieces.of(f) {
-            match deletion.delete(piece, order) {
+        for piece in self.plc.pieces.of(f) {
+            match PolygonDeletion::new(&self.plc, &mut self.cdt).delete(piece, order) {
                 Ok(of_piece) => {
                     counts.add(&of_piece);
-                    self.inserted[piece] = false;
+                    self.cdt.inserted[piece] = false;
                 }
                 Err(reason) => {
                     refused = Some(reason);
@@ -407,7 +379,8 @@ impl Cdt<DoublePoints> {
 
     /// Whether polygon `f` is in the mesh.
     pub fn is_inserted(&self, f: usize) -> bool {
-        f < self.complex.polygons.len() && self.inserted[self.pieces.of(f)].iter().all(|&i| i)
+        f < self.complex.polygons.len()
+            && self.cdt.inserted[self.plc.pieces.of(f)].iter().all(|&i| i)
     }
 
     /// The polygon that a facet of the input belongs to, possibly with others that are coplanar; `None` if the facet is

@@ -9,6 +9,7 @@
 //! - [`region`]: which parts of a polygon are missing, and the tetrahedra that it cuts there.
 //! - [`retriangulate`]: new tetrahedra for a region, by cavities or by gift wrapping.
 //! - [`flips`]: new tetrahedra for a region, by flips.
+//! - `workspace`: what polygons are inserted into and deleted from.
 //! - [`polygons`]: all polygons, by any of these.
 //! - [`domain`]: which tetrahedra are inside.
 //! - [`output`]: what is checked and changed before the mesh is exported.
@@ -24,3 +25,4 @@ pub mod retriangulate;
 pub mod segments;
 pub mod subpolygons;
 pub mod tables;
+pub(crate) mod workspace;

@@ -5,15 +5,13 @@
 //! to the region that is flipped, not to the mesh.
 
 use crate::error::{DeletionRefused, Obstacle};
-use crate::mesh::{Corner, Incidence, TetId, TetMesh, VertexId};
-use crate::plc::Complex;
+use crate::mesh::{Corner, TetId, VertexId};
 use crate::predicate::PointStore;
 use crate::recover::flips::{Blocked, FlipCounts, Kept, flip_delete};
 use crate::recover::method::FlipOrder;
-use crate::recover::polygons::{Scratch, Subpolygons, boundary_subsegments};
 use crate::recover::region::Sides;
-use crate::recover::segments::{SegmentIndex, Subsegments};
 use crate::recover::subpolygons::{Face, face};
+use crate::recover::workspace::{ConstrainedMesh, EdgeProtectedPlc};
 use rustc_hash::FxHashSet;
 use serde::Serialize;
 
@@ -41,26 +39,17 @@ impl DeletionCounts {
 }
 
 /// Deletes polygons from a CDT.
-pub struct PolygonDeletion<'a, P> {
-    /// The vertices.
-    pub points: &'a P,
-    /// The mesh.
-    pub mesh: &'a mut TetMesh,
-    /// Its vertex stars.
-    pub incidence: &'a mut Incidence,
-    /// The PLC.
-    pub complex: &'a Complex,
-    /// Finds its segments.
-    pub index: &'a SegmentIndex,
-    /// Its segments as they are in the mesh.
-    pub subsegments: &'a Subsegments,
-    /// The triangles on polygons.
-    pub subpolygons: &'a mut Subpolygons,
-    /// Memory used again for every polygon.
-    pub scratch: &'a mut Scratch,
+pub(crate) struct PolygonDeletion<'a, P> {
+    plc: &'a EdgeProtectedPlc<P>,
+    cdt: &'a mut ConstrainedMesh,
 }
 
-impl<P: PointStore> PolygonDeletion<'_, P> {
+impl<'a, P: PointStore> PolygonDeletion<'a, P> {
+    /// For polygons of the given PLC, of which `cdt` is the CDT.
+    pub fn new(plc: &'a EdgeProtectedPlc<P>, cdt: &'a mut ConstrainedMesh) -> Self {
+        PolygonDeletion { plc, cdt }
+    }
+
     /// Deletes polygon `f`, which is in the mesh. If it is refused the mesh has the same tetrahedra as before.
     ///
     /// # Errors
@@ -70,14 +59,15 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
         f: usize,
         order: FlipOrder,
     ) -> Result<DeletionCounts, DeletionRefused> {
-        let polygon = &self.complex.polygons[f];
-        let boundary = boundary_subsegments(self.subsegments, self.index, polygon);
-        let on_boundary = boundary.iter().flatten().copied();
+        let plc = self.plc;
+        let polygon = &plc.pieces.complex.polygons[f];
+        let boundary = plc.subsegments.boundary(polygon);
+        let on_boundary = boundary.iter().flatten();
         let sides = Sides::with_table(
-            self.points,
+            &plc.points,
             polygon,
-            polygon.vertices.iter().copied().chain(on_boundary),
-            std::mem::take(&mut self.scratch.sides),
+            polygon.vertices.iter().chain(on_boundary).copied(),
+            std::mem::take(&mut self.cdt.scratch.sides),
         );
         let mut result = self.by_flips(f, &sides, &boundary, order);
         if !sides.flat && result.is_err() {
@@ -85,7 +75,7 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
             result = self.by_flips(f, &sides.reversed(), &boundary, order);
         }
         let flat = sides.flat;
-        self.scratch.sides = sides.into_table();
+        self.cdt.scratch.sides = sides.into_table();
         result.map_err(|blocked| {
             let (facets, obstacle) = (polygon.facets.clone(), self.obstacle(blocked));
             if flat {
@@ -104,20 +94,25 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
         order: FlipOrder,
     ) -> Result<DeletionCounts, Blocked> {
         let corners = self.faces(f, boundary);
-        let faces: Vec<Face> = corners.iter().map(|&c| face(self.mesh.facet(c))).collect();
-        let (subsegments, subpolygons) = (self.subsegments, &*self.subpolygons);
+        let ConstrainedMesh {
+            mesh,
+            subpolygons,
+            scratch,
+            ..
+        } = &mut *self.cdt;
+        let faces: Vec<Face> = corners.iter().map(|&c| face(mesh.facet(c))).collect();
+        let (subsegments, subpolygons) = (&self.plc.subsegments, &*subpolygons);
         let kept = Kept {
             edge: &|[a, b]| subsegments.segment_of(a, b).is_some(),
             triangle: &|t| subpolygons.get(&t).is_some_and(|&g| g as usize != f),
         };
-        let scratch = &mut self.scratch.flips;
-        let deleted = flip_delete(self.mesh, sides, &corners, kept, order, scratch);
-        self.incidence.update(self.mesh, &deleted.tets);
+        let deleted = flip_delete(mesh, sides, &corners, kept, order, &mut scratch.flips);
+        self.cdt.created(&deleted.tets);
         if let Some(blocked) = deleted.blocked {
             return Err(blocked);
         }
         for t in &faces {
-            self.subpolygons.remove(t);
+            self.cdt.subpolygons.remove(t);
         }
         Ok(DeletionCounts {
             subpolygons: faces.len() as u64,
@@ -139,12 +134,13 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
                 continue;
             }
             let start = near
-                .or_else(|| self.incidence.tet_at_edge(self.mesh, a, b))
+                .or_else(|| self.cdt.incidence.tet_at_edge(&self.cdt.mesh, a, b))
                 .expect("every subsegment is an edge of the mesh");
-            for t in self.mesh.around(start, a, b) {
-                let c = self.mesh.exit_around(t, a, b);
-                let [x, y, z] = face(self.mesh.facet(c));
-                if self.subpolygons.get(&[x, y, z]) == Some(&(f as u32)) && found.insert([x, y, z])
+            for t in self.cdt.mesh.around(start, a, b) {
+                let c = self.cdt.mesh.exit_around(t, a, b);
+                let [x, y, z] = face(self.cdt.mesh.facet(c));
+                if self.cdt.subpolygons.get(&[x, y, z]) == Some(&(f as u32))
+                    && found.insert([x, y, z])
                 {
                     faces.push(c);
                     open.extend([[x, y], [x, z], [y, z]].map(|e| (e, Some(t))));
@@ -158,13 +154,13 @@ impl<P: PointStore> PolygonDeletion<'_, P> {
     fn obstacle(&self, blocked: Blocked) -> Obstacle {
         match blocked {
             Blocked::Edge([a, b]) => {
-                let s = self.subsegments.segment_of(a, b);
+                let s = self.plc.subsegments.segment_of(a, b);
                 let s = s.expect("only subsegments are kept") as usize;
-                Obstacle::Segment(self.complex.segments[s].ends)
+                Obstacle::Segment(self.plc.pieces.complex.segments[s].ends)
             }
             Blocked::Triangle(t) => {
-                let g = self.subpolygons[&t] as usize;
-                Obstacle::Polygon(self.complex.polygons[g].facets.clone())
+                let g = self.cdt.subpolygons[&t] as usize;
+                Obstacle::Polygon(self.plc.pieces.complex.polygons[g].facets.clone())
             }
             Blocked::NoFlip(t) => Obstacle::NoFlip(t),
             Blocked::TooLate(t) => Obstacle::TooLate(t),

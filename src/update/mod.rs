@@ -3,4 +3,5 @@
 
 mod delete_polygon;
 
-pub use delete_polygon::{DeletionCounts, PolygonDeletion};
+pub use delete_polygon::DeletionCounts;
+pub(crate) use delete_polygon::PolygonDeletion;

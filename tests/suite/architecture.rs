@@ -12,7 +12,7 @@ const ROOMS: &str = "machine threads clock number mesh exchange predicate kineti
 const INNER: [(&str, &str); 2] = [
     (
         "recover",
-        "tables subpolygons region retriangulate flips method segments flatten domain output polygons",
+        "tables subpolygons region retriangulate flips method segments flatten domain output workspace polygons",
     ),
     (
         "verify",

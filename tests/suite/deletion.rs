@@ -24,8 +24,12 @@ const FLIPS: Insertion = Insertion::Flip(FlipOrder::FILTERED);
 
 /// The tetrahedra, after a check of the topology.
 fn tets(cdt: &Cdt) -> Vec<[VertexId; 4]> {
-    cdt.mesh.check().expect("a triangulated sphere");
-    sorted_tets(&cdt.mesh)
+    tets_of(cdt.mesh())
+}
+
+fn tets_of(mesh: &TetMesh) -> Vec<[VertexId; 4]> {
+    mesh.check().expect("a triangulated sphere");
+    sorted_tets(mesh)
 }
 
 fn insert(cdt: &mut Cdt, f: usize, insertion: Insertion) -> Result<PolygonCounts, Failure> {
@@ -265,15 +269,19 @@ fn sorted<T: Ord>(all: impl Iterator<Item = T>) -> Vec<T> {
     list
 }
 
-/// Deletes the only polygon of a PLC from the mesh, which keeps its segments and the given edges and triangles.
-fn delete_around(cdt: &mut Cdt, edges: &[[VertexId; 2]], triangles: &[[VertexId; 3]]) -> Deleted {
+/// Deletes the only polygon of a PLC from a copy of the mesh, which keeps its segments and the given edges and triangles.
+fn delete_around(
+    cdt: &Cdt,
+    edges: &[[VertexId; 2]],
+    triangles: &[[VertexId; 3]],
+) -> (Deleted, TetMesh) {
     let polygon = cdt.complex().polygons[0].clone();
     let bounds: Vec<[VertexId; 2]> =
         sorted(polygon.edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]));
-    let mesh = cdt.mesh.clone();
+    let mesh = cdt.mesh().clone();
     let on_f = |[a, b, c]: [VertexId; 3]| {
         let in_plane = |v| {
-            cdt.points
+            cdt.points()
                 .orient3d([polygon.frame[0], polygon.frame[1], polygon.frame[2], v])
                 .is_zero()
         };
@@ -289,15 +297,18 @@ fn delete_around(cdt: &mut Cdt, edges: &[[VertexId; 2]], triangles: &[[VertexId;
         .filter(|&c| c < mesh.twin(c) && on_f(mesh.facet(c)))
         .collect();
     let [a, b, c] = polygon.frame;
-    let is_left = |v| cdt.points.orient3d([a, b, c, v]).is_positive();
-    let motion = PolygonMotion::new(&cdt.points, polygon.frame, &is_left);
+    let is_left = |v| cdt.points().orient3d([a, b, c, v]).is_positive();
+    let motion = PolygonMotion::new(cdt.points(), polygon.frame, &is_left);
     let kept = Kept {
         edge: &|e| bounds.contains(&e) || edges.contains(&e),
         triangle: &|t| triangles.contains(&t),
     };
     let times = FilteredTimes::new(&motion);
     let mut marks = Table::default();
-    FlipDeletion::new(&mut cdt.mesh, &cdt.points, kept, times, &mut marks).delete(&faces)
+    let mut mesh = mesh;
+    let deletion = FlipDeletion::new(&mut mesh, cdt.points(), kept, times, &mut marks);
+    let deleted = deletion.delete(&faces);
+    (deleted, mesh)
 }
 
 /// Declares edges and triangles of the mesh with f to be constraints. An edge that is not there without f holds f in
@@ -305,7 +316,7 @@ fn delete_around(cdt: &mut Cdt, edges: &[[VertexId; 2]], triangles: &[[VertexId;
 /// be inserted after f is deleted.
 fn keep_more(plc: &Plc, seed: u64, blocked_by_triangle: &mut usize) {
     let Some(start) = flat(plc) else { return };
-    if start.points.len() != plc.vertices.len() {
+    if start.points().len() != plc.vertices.len() {
         return;
     }
     let mut with = start.clone();
@@ -313,33 +324,31 @@ fn keep_more(plc: &Plc, seed: u64, blocked_by_triangle: &mut usize) {
         return;
     }
     let before = tets(&with);
-    let (edges_with, edges_without) = (edges(&with.mesh), edges(&start.mesh));
+    let (edges_with, edges_without) = (edges(with.mesh()), edges(start.mesh()));
     for i in shuffled(edges_with.len(), seed).into_iter().take(20) {
         let e = edges_with[i];
-        let mut cdt = with.clone();
-        let deleted = delete_around(&mut cdt, &[e], &[]);
+        let (deleted, mesh) = delete_around(&with, &[e], &[]);
         if edges_without.contains(&e) {
             assert_eq!(deleted.blocked, None);
-            assert_eq!(tets(&cdt), tets(&start));
+            assert_eq!(tets_of(&mesh), tets(&start));
         } else {
             assert_eq!(deleted.blocked, Some(Blocked::Edge(e)));
-            assert_eq!(tets(&cdt), before);
+            assert_eq!(tets_of(&mesh), before);
         }
     }
-    let new = |t: &[VertexId; 3]| !triangles(&start.mesh).contains(t);
+    let new = |t: &[VertexId; 3]| !triangles(start.mesh()).contains(t);
     let on_f = |t: &[VertexId; 3]| {
         let [a, b, c] = start.complex().polygons[0].frame;
         t.iter()
-            .all(|&v| start.points.orient3d([a, b, c, v]).is_zero())
+            .all(|&v| start.points().orient3d([a, b, c, v]).is_zero())
     };
-    let new: Vec<_> = triangles(&with.mesh)
+    let new: Vec<_> = triangles(with.mesh())
         .into_iter()
         .filter(|t| new(t) && !on_f(t))
         .collect();
     for i in shuffled(new.len(), seed).into_iter().take(20) {
         let t @ [a, b, c] = new[i];
-        let mut cdt = with.clone();
-        let deleted = delete_around(&mut cdt, &[], &[t]);
+        let (deleted, mesh) = delete_around(&with, &[], &[t]);
         let insertable = [[a, b], [a, c], [b, c]]
             .iter()
             .all(|e| edges_without.contains(e));
@@ -348,17 +357,17 @@ fn keep_more(plc: &Plc, seed: u64, blocked_by_triangle: &mut usize) {
         }
         if deleted.blocked.is_some() {
             *blocked_by_triangle += 1;
-            assert_eq!(tets(&cdt), before);
+            assert_eq!(tets_of(&mesh), before);
             continue;
         }
-        assert!(triangles(&cdt.mesh).contains(&t));
+        assert!(triangles(&mesh).contains(&t));
         if insertable {
             let mut other = plc.clone();
             other.facets = vec![facet(&t.map(|v| v.0))];
             other.segments = start.complex().segments.clone();
             let mut other = flat(&other).expect("its edges are there");
             insert(&mut other, 0, FLIPS).expect("a triangle that nothing crosses");
-            assert_eq!(tets(&cdt), tets(&other));
+            assert_eq!(tets_of(&mesh), tets(&other));
         }
     }
 }
@@ -491,11 +500,11 @@ fn a_segment_holds_a_polygon_in_place() {
     insert(&mut cdt, 0, FLIPS).expect("a valid PLC");
     let with = tets(&cdt);
     let segment = [5, 6].map(VertexId);
-    assert!(edges(&cdt.mesh).contains(&segment));
-    let deleted = delete_around(&mut cdt, &[segment], &[]);
+    assert!(edges(cdt.mesh()).contains(&segment));
+    let (deleted, mesh) = delete_around(&cdt, &[segment], &[]);
     assert_eq!(deleted.blocked, Some(Blocked::Edge(segment)));
     assert!(deleted.counts.flips() > 0);
-    assert_eq!(tets(&cdt), with);
+    assert_eq!(tets_of(&mesh), with);
 }
 
 /// So does a triangle with that edge.
@@ -505,14 +514,14 @@ fn a_triangle_holds_a_polygon_in_place() {
     insert(&mut cdt, 0, FLIPS).expect("a valid PLC");
     let with = tets(&cdt);
     let segment = [5, 6].map(VertexId);
-    let all = triangles(&cdt.mesh);
+    let all = triangles(cdt.mesh());
     for t in all
         .into_iter()
         .filter(|t| segment.iter().all(|v| t.contains(v)))
     {
-        let deleted = delete_around(&mut cdt, &[], &[t]);
+        let (deleted, mesh) = delete_around(&cdt, &[], &[t]);
         assert!(deleted.blocked.is_some());
-        assert_eq!(tets(&cdt), with);
+        assert_eq!(tets_of(&mesh), with);
     }
 }
 

@@ -59,14 +59,14 @@ fn check(plc: &Plc) {
     };
     for word in ROUNDED.split(' ') {
         let (cdt, outcome) = insert(plc, times(word)).expect("as before");
-        assert_eq!(cdt.mesh.check(), Ok(()), "{word}");
+        assert_eq!(cdt.mesh().check(), Ok(()), "{word}");
         match outcome {
-            Ok(()) => assert_eq!(sorted_tets(&cdt.mesh), sorted_tets(&exact.mesh), "{word}"),
+            Ok(()) => assert_eq!(sorted_tets(cdt.mesh()), sorted_tets(exact.mesh()), "{word}"),
             Err(failure) => {
                 assert!(!failure.describe(plc).is_empty());
-                let positive = |t| cdt.points.orient3d(cdt.mesh.vertices(t)).is_positive();
+                let positive = |t| cdt.points().orient3d(cdt.mesh().vertices(t)).is_positive();
                 assert!(
-                    cdt.mesh.finite().all(positive),
+                    cdt.mesh().finite().all(positive),
                     "{word}: the region is restored"
                 );
                 if let Some(region) = failure.region() {
@@ -90,7 +90,7 @@ fn check_region(region: &Plc, plc: &Plc, times: FlipOrder) {
     assert_eq!(exact, Ok(()), "{region:?}");
     // The same failure in most cases, but not in all: equal times are flipped in order of arrival.
     let (again, outcome) = insert(region, times).expect("a region spans space");
-    assert_eq!(again.mesh.check(), Ok(()));
+    assert_eq!(again.mesh().check(), Ok(()));
     assert!(outcome.is_ok() || outcome.is_err_and(|f| f.region().is_some()));
 }
 
@@ -277,5 +277,5 @@ fn flips_that_do_not_end_are_stopped() {
         "{failure:?}"
     );
     let before = Cdt::with_segments(&sphere(), true, &mut Report::default()).expect("as above");
-    assert_eq!(sorted_tets(&cdt.mesh), sorted_tets(&before.mesh));
+    assert_eq!(sorted_tets(cdt.mesh()), sorted_tets(before.mesh()));
 }

@@ -182,11 +182,11 @@ proptest! {
         }
         let mut report = Report::default();
         let Ok(cdt) = Cdt::with_segments(&plc, true, &mut report) else { return Ok(()) };
-        for t in cdt.mesh.finite() {
-            let [a, b, c, d] = cdt.mesh.vertices(t);
+        for t in cdt.mesh().finite() {
+            let [a, b, c, d] = cdt.mesh().vertices(t);
             for slot in 0..4 {
-                let apex = cdt.mesh.apex_across(t.corner(slot));
-                prop_assert!(apex.is_infinite() || cdt.points.insphere([a, b, c, d, apex]).is_negative());
+                let apex = cdt.mesh().apex_across(t.corner(slot));
+                prop_assert!(apex.is_infinite() || cdt.points().insphere([a, b, c, d, apex]).is_negative());
             }
         }
         mesh_and_verify(&plc);

@@ -228,11 +228,11 @@ mod tests {
         // The fan: seven tetrahedra, all with the seventh vertex.
         assert_eq!(insertion.before.len(), 7);
         assert!(insertion.before.iter().all(|t| t.contains(&VertexId(6))));
-        let d = disorder(&cdt.points, insertion, FlipOrder::new(NumberType::F64));
+        let d = disorder(cdt.points(), insertion, FlipOrder::new(NumberType::F64));
         assert!(d.adjacent >= 2 && d.kendall > 2, "{d:?}");
         // The first event is the last one in the exact order, and the only one that is flipped.
         assert_eq!(
-            exact_ranks(&cdt.points, insertion)[0],
+            exact_ranks(cdt.points(), insertion)[0],
             Some(d.events as usize)
         );
         let flips = insertion
@@ -245,7 +245,7 @@ mod tests {
             result,
             Err(Failure::GaveUp(GaveUp::Stuck { crossing: 7, .. }))
         ));
-        let pieces = pieces_left(&cdt.points, insertion);
+        let pieces = pieces_left(cdt.points(), insertion);
         assert_eq!(pieces.len(), 1);
         assert_eq!(
             (pieces[0].class, pieces[0].vertices),
@@ -260,7 +260,7 @@ mod tests {
         for times in [FlipOrder::EXACT, FlipOrder::FILTERED] {
             let (cdt, trace, result) = run(times);
             assert_eq!(result, Ok(()));
-            let d = disorder(&cdt.points, &trace.insertions[0], times);
+            let d = disorder(cdt.points(), &trace.insertions[0], times);
             assert_eq!((d.events, d.kendall), (3, 0), "three flips");
         }
     }

@@ -332,7 +332,7 @@ mod tests {
 
     fn trace(member: &str, times: FlipOrder) -> (tetflip::predicate::DoublePoints, Trace) {
         let mut cdt = member.parse::<Member>().expect("a name").prepare().cdt;
-        let points = cdt.points.clone();
+        let points = cdt.points().clone();
         let mut trace = Trace::default();
         let algorithm = Algorithm::Flip(times);
         let _ = cdt.insert_polygons_observed(

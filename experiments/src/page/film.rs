@@ -229,7 +229,7 @@ mod tests {
         let member: Member = member.parse().expect("a name");
         let cdt = member.prepare().cdt;
         let (_, _, trace) = watched(&cdt, times);
-        let film = |i| Film::of(&cdt.points, i);
+        let film = |i| Film::of(cdt.points(), i);
         trace.insertions.iter().map(film).collect()
     }
 

@@ -157,12 +157,12 @@ impl Plan {
             insertions.pop().expect("one")
         };
         let insertions = [FlipOrder::EXACT, FlipOrder::new(NumberType::F64)].map(one);
-        let films = insertions.each_ref().map(|i| Film::of(&cdt.points, i));
+        let films = insertions.each_ref().map(|i| Film::of(cdt.points(), i));
         assert_eq!(films[0].before, films[1].before, "both begin alike");
         let polygon = &plc.facets[0].polygons[0];
         let numbering = Numbering::of(&films, polygon);
         let picture = Picture::of(
-            &cdt.points,
+            cdt.points(),
             insertions[0].frame,
             polygon,
             &numbering.vertices,
@@ -175,7 +175,13 @@ impl Plan {
         let runs = std::array::from_fn(|i| {
             let (word, times) = orders[i];
             let end = (word, run(cdt, times, reference.as_ref()));
-            Run::of(&films[i], end, &numbering, &cdt.points, insertions[i].frame)
+            Run::of(
+                &films[i],
+                end,
+                &numbering,
+                cdt.points(),
+                insertions[i].frame,
+            )
         });
         Scene {
             name,

@@ -63,7 +63,7 @@ impl Experiment for Fig8 {
         let region = trace.insertions.first().ok_or("the rectangle was there")?;
         let (_, after) = region.end.as_ref().ok_or("the insertion has not ended")?;
         let crosses = |tet: &&[VertexId; 4]| {
-            let sides = tet.map(|v| side(&before.points, region.frame, v.0));
+            let sides = tet.map(|v| side(before.points(), region.frame, v.0));
             sides.contains(&1) && sides.contains(&-1)
         };
         let row = Row {
@@ -116,7 +116,7 @@ fn picture(
     picture.tetrahedra(
         &tets,
         |v| stage.spot(at(v)),
-        |v| side(&cdt.points, frame, v),
+        |v| side(cdt.points(), frame, v),
         false,
     );
     let caption = format!(

@@ -23,7 +23,7 @@ use super::neighbours::Neighbours;
 use crate::mesh::{Incidence, TetMesh};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
-use crate::recover::segments::{SegmentIndex, Subsegments};
+use crate::recover::segments::Subsegments;
 
 /// A polygon in pieces.
 #[derive(Clone, Debug, Default)]
@@ -41,10 +41,10 @@ pub(super) fn cut<P: PointStore>(
     figure: &Figure<P>,
     f: &Polygon,
     (mesh, incidence, neighbours): (&TetMesh, &Incidence, &mut Neighbours),
-    constraints: (&Subsegments, &SegmentIndex),
+    subsegments: &Subsegments,
 ) -> Cut {
     let points = figure.points;
-    let candidates = figure.candidates(mesh, incidence, neighbours, constraints);
+    let candidates = figure.candidates(mesh, incidence, neighbours, subsegments);
     let crossings = Crossings::new(figure, candidates);
     let preferences = [Preference::Lower, Preference::Upper, Preference::Shorter];
     let mut best: Option<Cut> = None;

@@ -5,7 +5,7 @@ use super::plane::Plane;
 use crate::mesh::{Groups, Incidence, TetMesh, VertexId};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
-use crate::recover::segments::{SegmentIndex, Subsegments};
+use crate::recover::segments::Subsegments;
 
 /// A polygon in projection.
 pub(super) struct Figure<'a, P> {
@@ -51,7 +51,7 @@ impl<'a, P: PointStore> Figure<'a, P> {
         mesh: &TetMesh,
         incidence: &Incidence,
         neighbours: &mut Neighbours,
-        (subsegments, index): (&Subsegments, &SegmentIndex),
+        subsegments: &Subsegments,
     ) -> Vec<[VertexId; 2]> {
         let mut candidates: Vec<[VertexId; 2]> = Vec::new();
         for (i, &v) in self.vertices.iter().enumerate() {
@@ -62,7 +62,7 @@ impl<'a, P: PointStore> Figure<'a, P> {
             let mut take = |j: usize| {
                 let w = greater[j];
                 if !self.around(i).any(|(u, _)| u == w)
-                    && !subsegments.share_segment(index, v, w)
+                    && !subsegments.share_segment(v, w)
                     && self.leads_inside(i, w)
                     && self.leads_inside(i + 1 + j, v)
                 {

@@ -37,7 +37,7 @@ use crate::delaunay::Delaunay;
 use crate::mesh::{Groups, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
 use crate::predicate::{GrowingStore, PointStore};
-use crate::recover::segments::{Request, SegmentIndex, Subsegments, add_steiner_points};
+use crate::recover::segments::{Request, Subsegments, add_steiner_points};
 use cut::Cut;
 use figure::Figure;
 use neighbours::Neighbours;
@@ -53,7 +53,6 @@ pub const MOST_POINTS: usize = 1000;
 /// What the polygons of a complex are made of at the moment.
 struct State<'a> {
     complex: &'a Arc<Complex>,
-    index: &'a SegmentIndex,
     /// The pieces of polygons that are not flat.
     cuts: Vec<Option<Box<Cut>>>,
     /// The polygons with cells that are not flat, ascending.
@@ -104,7 +103,6 @@ impl PolygonsAt {
 /// those, none is inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]).
 pub fn flatten<P: GrowingStore>(
     complex: &Arc<Complex>,
-    index: &SegmentIndex,
     points: &mut P,
     delaunay: &mut Delaunay,
     subsegments: &mut Subsegments,
@@ -114,7 +112,6 @@ pub fn flatten<P: GrowingStore>(
     let n = complex.polygons.len();
     let mut state = State {
         complex,
-        index,
         cuts: vec![None; n],
         bad: Vec::new(),
         inner: vec![Vec::new(); n],
@@ -187,9 +184,8 @@ impl State<'_> {
                 continue;
             }
             let figure = Figure::new(points, polygon, (&self.boundary, &self.vertices));
-            let constraints = (subsegments, self.index);
             let around = (mesh, incidence, &mut self.neighbours);
-            let cut = cut::cut(&figure, polygon, around, constraints);
+            let cut = cut::cut(&figure, polygon, around, subsegments);
             if !cut.bad.is_empty() {
                 self.bad.push(f);
                 let wanted = wanted(&figure, polygon, &cut);
@@ -204,7 +200,7 @@ impl State<'_> {
     fn look_at(&mut self, f: usize, subsegments: &Subsegments) {
         let polygon = &self.complex.polygons[f];
         self.boundary.clear();
-        subsegments.append_boundary(self.index, polygon, &mut self.boundary);
+        subsegments.append_boundary(polygon, &mut self.boundary);
         self.vertices.clear();
         self.vertices.extend(&polygon.vertices);
         if self.boundary.len() > polygon.edges.len() || !self.inner[f].is_empty() {
@@ -257,10 +253,8 @@ impl State<'_> {
         let n = self.cuts.len();
         if self.cuts.iter().all(Option::is_none) {
             return Pieces {
-                complex: Arc::clone(self.complex),
-                first: (0..=n).collect(),
-                was_cut: vec![false; n],
                 inner: self.inner,
+                ..Pieces::whole(Arc::clone(self.complex))
             };
         }
         let mut polygons = Vec::with_capacity(n);

@@ -20,6 +20,17 @@ pub struct Pieces {
 }
 
 impl Pieces {
+    /// Every polygon in one piece.
+    pub(crate) fn whole(complex: Arc<Complex>) -> Pieces {
+        let n = complex.polygons.len();
+        Pieces {
+            complex,
+            first: (0..=n).collect(),
+            was_cut: vec![false; n],
+            inner: vec![Vec::new(); n],
+        }
+    }
+
     /// The pieces of polygon f.
     pub fn of(&self, f: usize) -> Range<usize> {
         self.first[f]..self.first[f + 1]

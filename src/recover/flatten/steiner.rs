@@ -117,7 +117,7 @@ fn circumcenter(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Option<([f64; 3], f64)
 }
 
 fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
-    crate::recover::segments::sight(p, a, b)
+    crate::recover::segments::angle_measure(p, a, b)
 }
 
 #[cfg(test)]

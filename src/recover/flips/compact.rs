@@ -302,7 +302,7 @@ mod tests {
         let counts = cdt
             .insert_polygons_observed(insertion, &mut report, &mut |_| (), observer)
             .expect("a valid PLC");
-        (cdt.mesh, counts)
+        (cdt.mesh().clone(), counts)
     }
 
     fn sorted_tets(mesh: &TetMesh) -> Vec<[VertexId; 4]> {

@@ -22,18 +22,17 @@
 use crate::error::InvalidPlc;
 use crate::mesh::{Groups, VertexId};
 use crate::plc::Complex;
-use crate::recover::segments::{SegmentIndex, Subsegments};
-use crate::recover::subpolygons::Face;
-use crate::recover::subpolygons::Subpolygons;
+use crate::recover::segments::Subsegments;
+use crate::recover::subpolygons::{Face, Subpolygons};
 
 /// An edge, by its greater end, with a triangle of a polygon at it, or with a side of a polygon that it bounds; as one
 /// number, for sorting.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side(u64);
+struct EdgeUse(u64);
 
-impl Side {
-    fn new(end: VertexId, polygon: u32, bounds: bool) -> Side {
-        Side(u64::from(end.0) << 32 | u64::from(polygon << 1 | u32::from(bounds)))
+impl EdgeUse {
+    fn new(end: VertexId, polygon: u32, bounds: bool) -> EdgeUse {
+        EdgeUse(u64::from(end.0) << 32 | u64::from(polygon << 1 | u32::from(bounds)))
     }
 
     fn end(self) -> VertexId {
@@ -73,7 +72,6 @@ impl Parts {
 pub fn check_embedding(
     complex: &Complex,
     subsegments: &Subsegments,
-    index: &SegmentIndex,
     (subpolygons, n): (&Subpolygons, usize),
     inserted: &[bool],
 ) -> Result<(), InvalidPlc> {
@@ -86,7 +84,7 @@ pub fn check_embedding(
     };
     for (polygon, inserted) in complex.polygons.iter().zip(inserted) {
         if *inserted {
-            subsegments.append_boundary(index, polygon, &mut parts.boundary);
+            subsegments.append_boundary(polygon, &mut parts.boundary);
         }
         parts.ends.push(parts.boundary.len());
     }
@@ -103,11 +101,11 @@ fn check_edges(
 ) -> Result<(), InvalidPlc> {
     let bounds = (0..complex.polygons.len()).flat_map(|f| {
         let edges = parts.boundary_of(f).iter();
-        edges.map(move |&[a, b]| (a.min(b), Side::new(a.max(b), f as u32, true)))
+        edges.map(move |&[a, b]| (a.min(b), EdgeUse::new(a.max(b), f as u32, true)))
     });
     let inner = parts.triangles.iter().flat_map(|&([a, b, c], f)| {
         let edges = [[a, b], [a, c], [b, c]];
-        edges.map(|[a, b]| (a, Side::new(b, f, false)))
+        edges.map(|[a, b]| (a, EdgeUse::new(b, f, false)))
     });
     let mut sides = Groups::new(n, bounds.chain(inner));
     sides.sort_groups(|&side| side);

@@ -5,7 +5,8 @@
 //! flips in place of a fallback on gift wrapping, whose time is quadratic, in regions of more than [`MOST_WRAPPED`]
 //! tetrahedra.
 
-use super::{PolygonInsertion, count_shims};
+use super::cover::count_shims;
+use super::{Current, PolygonInsertion};
 use crate::clock::Task;
 use crate::predicate::PointStore;
 use crate::recover::method::Insertion;
@@ -13,6 +14,7 @@ use crate::recover::region::{Region, Sides};
 use crate::recover::retriangulate::gift_wrap::gift_wrap;
 use crate::recover::retriangulate::{Retriangulation, cavity};
 use crate::recover::subpolygons::Face;
+use crate::recover::workspace::ConstrainedMesh;
 
 /// The largest region that is gift wrapped because cavity retriangulation was refused: seconds, not minutes.
 pub const MOST_WRAPPED: usize = 10_000;
@@ -21,20 +23,18 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     /// Retriangulates one region as a whole, and returns the polygons that this displaced; `None` if it is refused.
     pub(super) fn by_retriangulation(
         &mut self,
-        f: usize,
-        sides: &Sides<P>,
+        f: &Current<P>,
         region: &Region,
-        may_displace: bool,
     ) -> Option<Vec<usize>> {
         // Where f is not flat, the two orientations differ.
-        let reversed = (!sides.flat).then(|| sides.reversed());
-        let mut orientations = std::iter::once(sides).chain(&reversed);
+        let reversed = (!f.sides.flat).then(|| f.sides.reversed());
+        let mut orientations = std::iter::once(&f.sides).chain(&reversed);
         if self.insertion == Insertion::Cavity {
             let found = orientations
                 .clone()
-                .find_map(|sides| self.by_cavity(sides, region, may_displace));
+                .find_map(|sides| self.by_cavity(sides, region, f.may_displace));
             if let Some(r) = found {
-                return Some(self.graft(f, sides, &r));
+                return Some(self.put_into_mesh(f, &r));
             }
             self.counts.cavity_fallbacks += 1;
         }
@@ -49,7 +49,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         } else if is_fallback {
             self.counts.gift_wrap_fallbacks += 1;
         }
-        found.map(|r| self.graft(f, sides, &r))
+        found.map(|r| self.put_into_mesh(f, &r))
     }
 
     fn by_cavity(
@@ -58,37 +58,40 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         region: &Region,
         may_displace: bool,
     ) -> Option<Retriangulation> {
-        let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
-        let any = !self.subpolygons.is_empty();
+        let ConstrainedMesh {
+            mesh,
+            subpolygons,
+            scratch,
+            ..
+        } = &mut *self.cdt;
+        let is_subpolygon = |t: Face| subpolygons.contains_key(&t);
+        let any = !subpolygons.is_empty();
         let is_subpolygon = any.then_some(&is_subpolygon as &dyn Fn(Face) -> bool);
-        let scratch = &mut self.scratch.cavity;
-        let result = cavity::retriangulate(self.mesh, sides, region, is_subpolygon, scratch);
+        let result = cavity::retriangulate(mesh, sides, region, is_subpolygon, &mut scratch.cavity);
         let fits = |r: &Retriangulation| may_displace || r.displaced.is_empty();
         result.ok().filter(fits)
     }
 
     fn by_gift_wrapping(&self, sides: &Sides<P>, region: &Region) -> Option<Retriangulation> {
-        let is_subpolygon = |t: Face| self.subpolygons.contains_key(&t);
-        let wrapped = gift_wrap(self.mesh, sides, region, &is_subpolygon).ok()?;
-        self.mesh
-            .can_replace(&wrapped.old, &wrapped.new)
+        let mesh = &self.cdt.mesh;
+        let is_subpolygon = |t: Face| self.cdt.subpolygons.contains_key(&t);
+        let wrapped = gift_wrap(mesh, sides, region, &is_subpolygon).ok()?;
+        mesh.can_replace(&wrapped.old, &wrapped.new)
             .then_some(wrapped)
     }
 
-    /// Puts a retriangulation into the mesh.
-    fn graft(&mut self, f: usize, sides: &Sides<P>, r: &Retriangulation) -> Vec<usize> {
-        self.scratch.cavity.clock.begin();
-        let created = r.graft(self.mesh);
-        self.incidence.update(self.mesh, &created);
-        self.scratch.cavity.clock.end(Task::Merging);
+    /// Puts a retriangulation into the mesh, and returns the polygons that it displaced.
+    fn put_into_mesh(&mut self, f: &Current<P>, r: &Retriangulation) -> Vec<usize> {
+        self.cdt.scratch.cavity.clock.begin();
+        let created = r.put_into(&mut self.cdt.mesh);
+        self.cdt.created(&created);
+        self.cdt.scratch.cavity.clock.end(Task::Merging);
         self.counts.swallowed += r.swallowed as u64;
         self.counts.displaced += r.displaced.len() as u64;
-        self.counts.shims += count_shims(self.mesh, sides, &created);
-        self.recovered(f, &r.faces);
-        let polygons = r
-            .displaced
-            .iter()
-            .filter_map(|t| self.subpolygons.remove(t));
+        self.counts.shims += count_shims(&self.cdt.mesh, &f.sides, &created);
+        self.cover(f, &r.faces);
+        let displaced = r.displaced.iter();
+        let polygons = displaced.filter_map(|t| self.cdt.subpolygons.remove(t));
         polygons.map(|g| g as usize).collect()
     }
 }
@@ -98,24 +101,20 @@ mod tests {
     use super::*;
     use crate::delaunay::delaunay;
     use crate::exchange::{Facet, Plc};
-    use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
+    use crate::mesh::{TetId, TetMesh, VertexId};
     use crate::plc::Complex;
     use crate::predicate::DoublePoints;
-    use crate::recover::polygons::{FlipOrder, PolygonCounts, Scratch, Subpolygons};
+    use crate::recover::flatten::Pieces;
+    use crate::recover::polygons::{FlipOrder, PolygonCounts};
     use crate::recover::retriangulate::gift_wrap;
-    use crate::recover::segments::{SegmentIndex, Subsegments, recover_segments};
+    use crate::recover::segments::recover_segments;
+    use crate::recover::workspace::EdgeProtectedPlc;
+    use std::sync::Arc;
 
     /// A mesh with all segments of a PLC.
     struct Scene {
-        points: DoublePoints,
-        mesh: TetMesh,
-        incidence: Incidence,
-        complex: Complex,
-        subsegments: Subsegments,
-        index: SegmentIndex,
-        subpolygons: Subpolygons,
-        inserted: Vec<bool>,
-        scratch: Scratch,
+        plc: EdgeProtectedPlc<DoublePoints>,
+        cdt: ConstrainedMesh,
     }
 
     impl Scene {
@@ -137,40 +136,19 @@ mod tests {
                 recover_segments(&complex, &mut points, &mut delaunay, &|_| true)
                     .expect("few and far between");
             assert_eq!(points.len(), vertices.len(), "no Steiner point");
+            let n = complex.polygons.len();
             Scene {
-                points,
-                mesh: delaunay.mesh,
-                incidence,
-                subsegments,
-                index: SegmentIndex::new(&complex),
-                subpolygons: Subpolygons::default(),
-                inserted: vec![false; complex.polygons.len()],
-                scratch: Scratch::default(),
-                complex,
+                plc: EdgeProtectedPlc {
+                    points,
+                    subsegments,
+                    pieces: Pieces::whole(Arc::new(complex)),
+                },
+                cdt: ConstrainedMesh::new(delaunay.mesh, incidence, n),
             }
         }
 
-        fn insertion<'a>(
-            &'a mut self,
-            complex: &'a Complex,
-            insertion: Insertion,
-        ) -> PolygonInsertion<'a, DoublePoints> {
-            PolygonInsertion {
-                points: &self.points,
-                mesh: &mut self.mesh,
-                incidence: &mut self.incidence,
-                complex,
-                subsegments: &self.subsegments,
-                index: &self.index,
-                subpolygons: &mut self.subpolygons,
-                inserted: &mut self.inserted,
-                insertion,
-                counts: PolygonCounts::default(),
-                candidates: Vec::new(),
-                scratch: &mut self.scratch,
-                own_flips: None,
-                observer: None,
-            }
+        fn insertion(&mut self, insertion: Insertion) -> PolygonInsertion<'_, DoublePoints> {
+            PolygonInsertion::new(&self.plc, &mut self.cdt, insertion)
         }
     }
 
@@ -209,37 +187,23 @@ mod tests {
             .expect("the polygon is missing")
     }
 
-    fn sorted_tets(mesh: &TetMesh) -> Vec<[VertexId; 4]> {
-        let mut tets: Vec<[VertexId; 4]> = mesh
-            .finite()
-            .map(|t| {
-                let mut v = mesh.vertices(t);
-                v.sort_unstable();
-                v
-            })
-            .collect();
-        tets.sort_unstable();
-        tets
-    }
-
     /// Inserts the square last, as a polygon that may not displace others, and returns the mesh.
     fn square_without_displacing(insertion: Insertion) -> (Vec<[VertexId; 4]>, PolygonCounts) {
         let mut scene = fins();
-        let complex = scene.complex.clone();
-        let mut others = complex.clone();
-        let square = others.polygons.pop().expect("six polygons");
-        let mut first = scene.insertion(&others, insertion);
-        first.insert_all(&mut |_| {}).expect("a valid PLC");
-        let points = scene.points.clone();
-        let sides = Sides::new(&points, &square, square.vertices.iter().copied());
-        let seed = crossing(&scene.mesh, &sides);
-        let region = Region::grow(&scene.mesh, &sides, seed);
-        let mut last = scene.insertion(&complex, insertion);
-        let displaced = last.by_retriangulation(5, &sides, &region, false);
-        assert_eq!(displaced, Some(Vec::new()));
-        let counts = last.counts;
-        assert!(scene.mesh.check().is_ok());
-        (sorted_tets(&scene.mesh), counts)
+        for f in 0..5 {
+            let mut first = scene.insertion(insertion);
+            first.insert(f).expect("a valid PLC");
+        }
+        let square = &scene.plc.pieces.complex.polygons[5];
+        let sides = Sides::new(&scene.plc.points, square, square.vertices.iter().copied());
+        let seed = crossing(&scene.cdt.mesh, &sides);
+        let region = Region::grow(&scene.cdt.mesh, &sides, seed);
+        let mut last = PolygonInsertion::new(&scene.plc, &mut scene.cdt, insertion);
+        let f = last.begin(5, false);
+        assert_eq!(last.by_retriangulation(&f, &region), Some(Vec::new()));
+        let counts = last.counts();
+        assert!(scene.cdt.mesh.check().is_ok());
+        (scene.cdt.mesh.sorted_tets(), counts)
     }
 
     #[test]
@@ -256,10 +220,9 @@ mod tests {
         assert_eq!(counts, expected, "nothing falls back");
         assert_eq!(cavity, wrapped);
         let mut scene = fins();
-        let complex = scene.complex.clone();
-        let mut all = scene.insertion(&complex, Insertion::Flip(FlipOrder::EXACT));
+        let mut all = scene.insertion(Insertion::Flip(FlipOrder::EXACT));
         all.insert_all(&mut |_| {}).expect("a valid PLC");
-        assert_eq!(wrapped, sorted_tets(&scene.mesh));
+        assert_eq!(wrapped, scene.cdt.mesh.sorted_tets());
     }
 
     /// Paper, Fig. 4: a polygon that is not flat, and whose sides want different diagonals of it.
@@ -269,13 +232,13 @@ mod tests {
         let polygon = [[-1., 0., e], [0., -1., -e], [1., 0., e], [0., 1., -e]];
         let apexes = [[0., 0., 0.25], [0., 0., -0.25]];
         let scene = Scene::new(&[&polygon[..], &apexes].concat(), &[[0, 1, 2, 3]]);
-        let f = &scene.complex.polygons[0];
-        let sides = Sides::new(&scene.points, f, f.vertices.iter().copied());
+        let f = &scene.plc.pieces.complex.polygons[0];
+        let sides = Sides::new(&scene.plc.points, f, f.vertices.iter().copied());
         assert!(!sides.flat);
-        let seed = crossing(&scene.mesh, &sides);
-        let region = Region::grow(&scene.mesh, &sides, seed);
+        let seed = crossing(&scene.cdt.mesh, &sides);
+        let region = Region::grow(&scene.cdt.mesh, &sides, seed);
         assert_eq!(region.tets.len(), 4);
-        let result = gift_wrap::gift_wrap(&scene.mesh, &sides, &region, &|_| false);
+        let result = gift_wrap::gift_wrap(&scene.cdt.mesh, &sides, &region, &|_| false);
         assert_eq!(result.map(|r| r.new), Err(gift_wrap::Refused::Incompatible));
     }
 }

@@ -1,11 +1,12 @@
 //! What flips have made of a region, judged in exact arithmetic.
 //!
 //! In exact order the result is right by proof (Shewchuk 2003), and only impossible events are failures. In rounded
-//! order nothing is proved, and if predicates were rounded, too
-//! ([`FlipOrder::is_naive`](crate::recover::flips::FlipOrder::is_naive)), tetrahedra may be inverted. But each flip
-//! keeps the boundary of the volume that it fills, as a chain of oriented triangles. So if all tetrahedra are positive
-//! at the end then they fill R, each point once; if moreover none crosses f, all subpolygons are still there, and every
-//! other face is locally Delaunay, then they are the CDT, which is unique.
+//! order nothing is proved, and if predicates were rounded, too ([`FlipOrder::is_naive`]), tetrahedra may be inverted.
+//! But each flip keeps the boundary of the volume that it fills, as a chain of oriented triangles. So if all tetrahedra
+//! are positive at the end then they fill R, each point once; if moreover none crosses f, all subpolygons are still
+//! there, and every other face is locally Delaunay, then they are the CDT, which is unique.
+//!
+//! [`FlipOrder::is_naive`]: crate::recover::flips::FlipOrder::is_naive
 
 use crate::delaunay::is_locally_delaunay;
 use crate::mesh::{Corner, TetId, TetMesh};

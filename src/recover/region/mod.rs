@@ -25,19 +25,19 @@ impl Region {
     /// Grows R from one of its tetrahedra. f cannot end inside a tetrahedron, because its edges are edges of the mesh,
     /// so every crossing triangle of a tetrahedron of R leads to another one.
     pub fn grow<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, seed: TetId) -> Region {
-        Region::with_marks(mesh, sides, seed, Table::default())
+        Region::default().regrown(mesh, sides, seed)
     }
 
-    /// The same, using the memory of `marks`.
-    pub fn with_marks<P: PointStore>(
-        mesh: &TetMesh,
-        sides: &Sides<P>,
-        seed: TetId,
-        mut marks: Table<bool>,
-    ) -> Region {
+    /// Another region, in the memory of this one.
+    pub fn regrown<P: PointStore>(self, mesh: &TetMesh, sides: &Sides<P>, seed: TetId) -> Region {
+        let Region {
+            mut tets,
+            mut marks,
+        } = self;
         marks.clear();
         marks.set(seed.index(), true);
-        let mut tets = vec![seed];
+        tets.clear();
+        tets.push(seed);
         let mut next = 0;
         while let Some(&t) = tets.get(next) {
             next += 1;
@@ -61,11 +61,6 @@ impl Region {
             marks.set(t.index(), true);
         }
         Region { tets, marks }
-    }
-
-    /// The memory given to [`Region::with_marks`].
-    pub fn into_marks(self) -> Table<bool> {
-        self.marks
     }
 
     /// Whether t is in R.

@@ -1,12 +1,11 @@
-//! The boundary of a cavity, the *walls*, found in the Delaunay tetrahedralization D of the cavity's vertices, and what
-//! they enclose.
+//! The boundary of a cavity, found in the Delaunay tetrahedralization D of the cavity's vertices, and what it encloses.
 //!
-//! A wall is known by its vertices, by the corner of the mesh outside, and, once found, by the corner of D inside of
-//! it. So the tetrahedra of D that the walls enclose are flooded from the walls, each walled facet is recognised by a
-//! bit of its tetrahedron, and the enclosed tetrahedra can be glued to each other as they are in D, and to what is
-//! outside: nothing is looked up by its vertices but the walls.
+//! A triangle of the boundary is known by its vertices, by the corner of the mesh outside, and, once found, by the
+//! corner of D inside of it. So the tetrahedra of D that the boundary encloses are flooded from it, each facet on it is
+//! recognised by a bit of its tetrahedron, and the enclosed tetrahedra can be glued to each other as they are in D, and
+//! to what is outside: nothing is looked up by its vertices but the boundary.
 //!
-//! Complexity: linear in the sizes of the boundary and of D; [`Walls::find_again`] in the degrees of the vertices.
+//! Complexity: linear in the sizes of the boundary and of D; [`Boundary::find_again`] in the degrees of the vertices.
 
 use super::Gluing;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
@@ -15,7 +14,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A triangle of a cavity's boundary.
 #[derive(Clone, Copy, Debug)]
-pub struct Wall {
+pub struct BoundaryFacet {
     /// Oriented outwards.
     pub facet: [VertexId; 3],
     /// The corner of the mesh outside; none for a triangle of f.
@@ -25,10 +24,10 @@ pub struct Wall {
     is_removed: bool,
 }
 
-impl Wall {
+impl BoundaryFacet {
     /// A facet of the mesh that is to be looked for in D.
-    pub fn new(facet: [VertexId; 3], outside: Corner) -> Wall {
-        Wall {
+    pub fn new(facet: [VertexId; 3], outside: Corner) -> BoundaryFacet {
+        BoundaryFacet {
             facet,
             outside,
             inside: Corner::NONE,
@@ -37,10 +36,10 @@ impl Wall {
     }
 
     /// A triangle of f, with its corner in D if that is known.
-    pub fn of_polygon(facet: [VertexId; 3], inside: Corner) -> Wall {
-        Wall {
+    pub fn of_polygon(facet: [VertexId; 3], inside: Corner) -> BoundaryFacet {
+        BoundaryFacet {
             inside,
-            ..Wall::new(facet, Corner::NONE)
+            ..BoundaryFacet::new(facet, Corner::NONE)
         }
     }
 
@@ -63,78 +62,80 @@ impl Wall {
     }
 }
 
-/// The walls of one cavity.
+/// The triangles of one cavity.
 #[derive(Clone, Debug, Default)]
-pub struct Walls {
+pub struct Boundary {
     /// In order of discovery.
-    list: Vec<Wall>,
+    list: Vec<BoundaryFacet>,
     /// Those that have not been removed.
     by_face: FxHashMap<Face, u32>,
 }
 
-impl Walls {
-    /// The given walls.
-    pub fn new(list: Vec<Wall>) -> Walls {
-        let faces = list.iter().map(|wall| face(wall.facet));
-        Walls {
+impl Boundary {
+    /// The given triangles.
+    pub fn new(list: Vec<BoundaryFacet>) -> Boundary {
+        let faces = list.iter().map(|triangle| face(triangle.facet));
+        Boundary {
             by_face: faces.zip(0..).collect(),
             list,
         }
     }
 
-    /// The wall with the given vertices.
+    /// The triangle with the given vertices.
     #[inline]
     pub fn find(&self, face: Face) -> Option<u32> {
         self.by_face.get(&face).copied()
     }
 
-    /// One more wall.
-    pub fn add(&mut self, wall: Wall) -> u32 {
+    /// One more triangle.
+    pub fn add(&mut self, triangle: BoundaryFacet) -> u32 {
         let i = u32::try_from(self.list.len()).expect("fewer than 2^32 facets");
-        self.list.push(wall);
-        self.by_face.insert(face(wall.facet), i);
+        self.list.push(triangle);
+        self.by_face.insert(face(triangle.facet), i);
         i
     }
 
-    /// Removes a wall.
-    pub fn remove(&mut self, wall: u32) {
-        let wall = &mut self.list[wall as usize];
-        wall.is_removed = true;
-        self.by_face.remove(&face(wall.facet));
+    /// Removes a triangle.
+    pub fn remove(&mut self, triangle: u32) {
+        let triangle = &mut self.list[triangle as usize];
+        triangle.is_removed = true;
+        self.by_face.remove(&face(triangle.facet));
     }
 
-    /// Forgets where a wall is in D.
-    pub fn lose(&mut self, wall: u32) {
-        self.list[wall as usize].inside = Corner::NONE;
+    /// Forgets where a triangle is in D.
+    pub fn lose(&mut self, triangle: u32) {
+        self.list[triangle as usize].inside = Corner::NONE;
     }
 
-    /// All walls.
-    pub fn current(&self) -> impl Iterator<Item = &Wall> {
-        self.list.iter().filter(|wall| !wall.is_removed)
+    /// All triangles.
+    pub fn current(&self) -> impl Iterator<Item = &BoundaryFacet> {
+        self.list.iter().filter(|triangle| !triangle.is_removed)
     }
 
-    /// Looks for all walls in D, by one look at each of D's facets.
+    /// Looks for all triangles in D, by one look at each of D's facets.
     pub fn find_all(&mut self, d: &TetMesh) {
         for t in d.all() {
             for c in (0..4).map(|slot| t.corner(slot)) {
                 if c < d.twin(c)
-                    && let Some(wall) = self.find(face(d.facet(c)))
+                    && let Some(triangle) = self.find(face(d.facet(c)))
                 {
-                    self.list[wall as usize].found(d, c);
+                    self.list[triangle as usize].found(d, c);
                 }
             }
         }
     }
 
-    /// The corners outside of the walls that D lacks, those of f left out.
+    /// The corners outside of the triangles that D lacks, those of f left out.
     pub fn missing(&self) -> Vec<Corner> {
-        let missing = self.current().filter(|wall| wall.inside == Corner::NONE);
-        let outside = missing.map(|wall| wall.outside);
+        let missing = self
+            .current()
+            .filter(|triangle| triangle.inside == Corner::NONE);
+        let outside = missing.map(|triangle| triangle.outside);
         outside.filter(|&c| c != Corner::NONE).collect()
     }
 
-    /// Looks for some walls in D around their vertices, and returns the corners outside of those that D lacks. `tet_at`
-    /// knows a tetrahedron of D at each vertex.
+    /// Looks for some triangles in D around their vertices, and returns the corners outside of those that D lacks.
+    /// `tet_at` knows a tetrahedron of D at each vertex.
     pub fn find_again(
         &mut self,
         unknown: &[u32],
@@ -146,29 +147,29 @@ impl Walls {
         unknown.dedup();
         let mut missing = Vec::new();
         for i in unknown {
-            let wall = &mut self.list[i as usize];
-            if wall.is_removed {
+            let triangle = &mut self.list[i as usize];
+            if triangle.is_removed {
                 continue;
             }
-            match corner_with(d, wall.facet, tet_at) {
-                Some(c) => wall.found(d, c),
-                None if !wall.is_of_polygon() => missing.push(wall.outside),
+            match corner_with(d, triangle.facet, tet_at) {
+                Some(c) => triangle.found(d, c),
+                None if !triangle.is_of_polygon() => missing.push(triangle.outside),
                 None => {}
             }
         }
         missing
     }
 
-    /// Adds the tetrahedra of D that the walls enclose: those reached from their inner sides. `None` if the walls are
-    /// not all in D, or do not enclose anything.
+    /// Adds the tetrahedra of D that the boundary encloses: those reached from its inner side. `None` if its triangles
+    /// are not all in D, or do not enclose anything.
     pub fn fill(&self, d: &TetMesh, filled: &mut Filled) -> Option<()> {
-        let mut walled = vec![0u8; d.capacity()];
-        for wall in self.current() {
-            if !wall.has_inside(d) {
+        let mut bounds = vec![0u8; d.capacity()];
+        for triangle in self.current() {
+            if !triangle.has_inside(d) {
                 return None;
             }
-            for c in [wall.inside, d.twin(wall.inside)] {
-                walled[c.tet().index()] |= 1 << c.slot();
+            for c in [triangle.inside, d.twin(triangle.inside)] {
+                bounds[c.tet().index()] |= 1 << c.slot();
             }
         }
         // 1 + the number of each enclosed tetrahedron.
@@ -183,15 +184,15 @@ impl Walls {
             }
             TetId(*number - 1)
         };
-        for wall in self.current() {
-            enter(wall.inside.tet(), &mut inside);
+        for triangle in self.current() {
+            enter(triangle.inside.tet(), &mut inside);
         }
         let mut next = 0;
         while let Some(&t) = inside.get(next) {
             let (&vertices, twins) = d.tet(t);
             let mut across = [Corner::NONE; 4];
             for (slot, across) in across.iter_mut().enumerate() {
-                if walled[t.index()] >> slot & 1 == 0 {
+                if bounds[t.index()] >> slot & 1 == 0 {
                     let twin = twins[slot];
                     if d.is_ghost(twin.tet()) {
                         return None;
@@ -203,13 +204,15 @@ impl Walls {
             filled.across.push(across);
             next += 1;
         }
-        for wall in self.current() {
-            if number[d.neighbor(wall.inside).index()] != 0 {
+        for triangle in self.current() {
+            if number[d.neighbor(triangle.inside).index()] != 0 {
                 return None;
             }
-            let t = TetId(number[wall.inside.tet().index()] - 1);
-            let inside = t.corner(wall.inside.slot());
-            filled.walls.push((inside, wall.outside, face(wall.facet)));
+            let t = TetId(number[triangle.inside.tet().index()] - 1);
+            let inside = t.corner(triangle.inside.slot());
+            filled
+                .boundary
+                .push((inside, triangle.outside, face(triangle.facet)));
         }
         Some(())
     }
@@ -248,10 +251,10 @@ fn corner_with(
 #[derive(Clone, Debug)]
 pub struct Filled {
     tets: Vec<[VertexId; 4]>,
-    /// What is across their facets, by index instead of id; none at walls.
+    /// What is across their facets, by index instead of id; none at the boundary.
     across: Vec<[Corner; 4]>,
-    /// The walled corners, by index instead of id, what is outside, and the triangles.
-    walls: Vec<(Corner, Corner, Face)>,
+    /// The corners on the boundary, by index instead of id, what is outside, and the triangles.
+    boundary: Vec<(Corner, Corner, Face)>,
 }
 
 impl Filled {
@@ -260,16 +263,16 @@ impl Filled {
         Filled {
             tets: Vec::with_capacity(tets),
             across: Vec::with_capacity(tets),
-            walls: Vec::with_capacity(tets),
+            boundary: Vec::with_capacity(tets),
         }
     }
 
     /// The tetrahedra of both cavities, and what is across their facets: triangles of f, and others beyond which there
     /// are old tetrahedra, must be common to both, or `None` is returned.
     pub fn join(mut self, is_old: &dyn Fn(TetId) -> bool) -> Option<(Vec<[VertexId; 4]>, Gluing)> {
-        let mut outside = Vec::with_capacity(self.walls.len());
+        let mut outside = Vec::with_capacity(self.boundary.len());
         let mut open: FxHashMap<Face, Corner> = FxHashMap::default();
-        for (c, old, face) in self.walls {
+        for (c, old, face) in self.boundary {
             if old != Corner::NONE && !is_old(old.tet()) {
                 outside.push((c, old));
                 continue;

@@ -20,11 +20,11 @@
 //!
 //! # Complexity
 //! Expected O(n log n) for D, of n vertices, and linear time for the rest: D is searched for the facets of the boundary
-//! once (`Walls`), and after a tetrahedron has been swallowed only for those whose part of D has changed. What is
+//! once (`Boundary`), and after a tetrahedron has been swallowed only for those whose part of D has changed. What is
 //! inside is glued as it is in D.
 
 use super::Retriangulation;
-use super::boundary::{Filled, Wall, Walls};
+use super::boundary::{Boundary, BoundaryFacet, Filled};
 use crate::clock::{Task, TaskClock};
 use crate::delaunay::{Delaunay, delaunay};
 use crate::mesh::{Corner, FACET, TetId, TetMesh, VertexId};
@@ -72,36 +72,36 @@ pub fn retriangulate<P: PointStore>(
 ) -> Result<Retriangulation, Refused> {
     scratch.swallowed_by.clear();
     scratch.clock.begin();
-    let place = Place {
+    let around = Surroundings {
         mesh,
         sides,
         region,
     };
-    let [below, above] = place.boundaries()?;
-    let [below_f, on_f, above_f] = place.vertices(scratch);
+    let [below, above] = around.boundaries()?;
+    let [below_f, on_f, above_f] = around.vertices(scratch);
 
     let mut filled = Filled::with_capacity(region.tets.len());
     // Only one of the cavities is there at a time: the second one uses the memory of the first one again.
     let (faces, mut swallowed) = {
         let vertices = [below_f.as_slice(), &on_f];
-        let mut right = Cavity::new(place, Side::Right, vertices, below, scratch)?;
+        let mut right = Cavity::new(around, Side::Right, vertices, below, scratch)?;
         let border = right.open_edges();
         right.expand()?;
         right.scratch.clock.end(Task::CavityFaces);
         let (faces, corners) = right.faces_on_hull(&border)?;
         right.scratch.clock.end(Task::PolygonFaces);
         for (&facet, &corner) in faces.iter().zip(&corners) {
-            right.walls.add(Wall::of_polygon(facet, corner));
+            right.boundary.add(BoundaryFacet::of_polygon(facet, corner));
         }
         right.fill(&mut filled)?;
         (faces, right.swallowed)
     };
 
     let mut above = above;
-    let turned = |&[a, b, c]: &[VertexId; 3]| Wall::of_polygon([b, a, c], Corner::NONE);
+    let turned = |&[a, b, c]: &[VertexId; 3]| BoundaryFacet::of_polygon([b, a, c], Corner::NONE);
     above.extend(faces.iter().map(turned));
     let vertices = [above_f.as_slice(), &on_f];
-    let mut left = Cavity::new(place, Side::Left, vertices, above, scratch)?;
+    let mut left = Cavity::new(around, Side::Left, vertices, above, scratch)?;
     left.expand()?;
     left.scratch.clock.end(Task::CavityFaces);
     if !left.has_polygon() {
@@ -116,7 +116,7 @@ pub fn retriangulate<P: PointStore>(
     let is_old = |t: TetId| region.contains(t) || scratch.swallowed_by.get(t.index()).is_some();
     let (new, gluing) = filled.join(&is_old).ok_or(Refused::NotExposed)?;
     let displaced = is_subpolygon.map_or_else(Vec::new, |is_subpolygon| {
-        vanishing(place, &old, &new, &is_old, is_subpolygon)
+        vanishing(around, &old, &new, &is_old, is_subpolygon)
     });
     scratch.clock.end(Task::Merging);
     Ok(Retriangulation {
@@ -132,16 +132,16 @@ pub fn retriangulate<P: PointStore>(
 /// The triangles of polygons between two of the `old` tetrahedra that the `new` ones do not have. Crossing triangles
 /// are known to be of no polygon.
 fn vanishing<P: PointStore>(
-    place: Place<P>,
+    around: Surroundings<P>,
     old: &[TetId],
     new: &[[VertexId; 4]],
     is_old: &dyn Fn(TetId) -> bool,
     is_subpolygon: &dyn Fn(Face) -> bool,
 ) -> Vec<Face> {
-    let mesh = place.mesh;
+    let mesh = around.mesh;
     let mut polygons: Vec<Face> = Vec::new();
     for &t in old {
-        let crossing = place.sides.crossing_facets(&mesh.vertices(t));
+        let crossing = around.sides.crossing_facets(&mesh.vertices(t));
         let others = corners(t, !crossing & 0b1111);
         let inner = others.filter(|&c| c < mesh.twin(c) && is_old(mesh.neighbor(c)));
         let facets = inner.map(|c| face(mesh.facet(c)));
@@ -159,26 +159,26 @@ fn vanishing<P: PointStore>(
 }
 
 /// Where a cavity is.
-struct Place<'a, P> {
+struct Surroundings<'a, P> {
     mesh: &'a TetMesh,
     sides: &'a Sides<'a, P>,
     region: &'a Region,
 }
 
-impl<P> Clone for Place<'_, P> {
+impl<P> Clone for Surroundings<'_, P> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<P> Copy for Place<'_, P> {}
+impl<P> Copy for Surroundings<'_, P> {}
 
-impl<P: PointStore> Place<'_, P> {
+impl<P: PointStore> Surroundings<'_, P> {
     /// The facets of R's boundary on the right and on the left side of f: oriented outwards, with the corner outside of
     /// each.
-    fn boundaries(&self) -> Result<[Vec<Wall>; 2], Refused> {
+    fn boundaries(&self) -> Result<[Vec<BoundaryFacet>; 2], Refused> {
         let expected = self.region.tets.len() / 2;
-        let mut walls = [Vec::with_capacity(expected), Vec::with_capacity(expected)];
+        let mut boundaries = [Vec::with_capacity(expected), Vec::with_capacity(expected)];
         for &t in &self.region.tets {
             let (vertices, twins) = self.mesh.tet(t);
             let [left, right] = self.sides.left_and_right(vertices);
@@ -192,16 +192,16 @@ impl<P: PointStore> Place<'_, P> {
                     return Err(Refused::NotExposed);
                 }
                 let [i, j, k] = FACET[slot];
-                let wall = Wall::new([vertices[i], vertices[j], vertices[k]], twin);
+                let triangle = BoundaryFacet::new([vertices[i], vertices[j], vertices[k]], twin);
                 if right & others != 0 {
-                    walls[0].push(wall);
+                    boundaries[0].push(triangle);
                 }
                 if left & others != 0 {
-                    walls[1].push(wall);
+                    boundaries[1].push(triangle);
                 }
             }
         }
-        Ok(walls)
+        Ok(boundaries)
     }
 
     /// The vertices of R that are right of f, on f, and left of it.
@@ -228,10 +228,10 @@ impl<P: PointStore> Place<'_, P> {
 
 /// One of the two cavities.
 struct Cavity<'a, P> {
-    place: Place<'a, P>,
+    around: Surroundings<'a, P>,
     side: Side,
     /// The boundary, and where it is in D.
-    walls: Walls,
+    boundary: Boundary,
     /// The Delaunay tetrahedralization D of the cavity's vertices.
     d: Delaunay,
     is_indexed: bool,
@@ -240,13 +240,13 @@ struct Cavity<'a, P> {
 }
 
 impl<'a, P: PointStore> Cavity<'a, P> {
-    /// The part of R on one side of f, and D. `vertices` are those there and on f, `walls` are the boundary of R there,
-    /// and the triangles of f if they are known.
+    /// The part of R on one side of f, and D. `vertices` are those there and on f, `boundary` is that of R there, and
+    /// the triangles of f if they are known.
     fn new(
-        place: Place<'a, P>,
+        around: Surroundings<'a, P>,
         side: Side,
         vertices: [&[VertexId]; 2],
-        walls: Vec<Wall>,
+        boundary: Vec<BoundaryFacet>,
         scratch: &'a mut CavityScratch,
     ) -> Result<Self, Refused> {
         scratch.tet_at.clear();
@@ -256,14 +256,14 @@ impl<'a, P: PointStore> Cavity<'a, P> {
         }
         vertices.sort_unstable();
         scratch.clock.end(Task::CavityFaces);
-        let d = delaunay(place.sides.points(), &vertices).map_err(|_| Refused::NotExposed)?;
+        let d = delaunay(around.sides.points(), &vertices).map_err(|_| Refused::NotExposed)?;
         scratch.clock.end(Task::CavityDelaunay);
-        let mut walls = Walls::new(walls);
-        walls.find_all(&d.mesh);
+        let mut boundary = Boundary::new(boundary);
+        boundary.find_all(&d.mesh);
         Ok(Cavity {
-            place,
+            around,
             side,
-            walls,
+            boundary,
             d,
             is_indexed: false,
             scratch,
@@ -275,8 +275,8 @@ impl<'a, P: PointStore> Cavity<'a, P> {
     /// outward oriented boundary, has it. A facet that is not part of the cavity's boundary is on the other side, so
     /// that neither end of its edge is on this one.
     fn open_edges(&self) -> Vec<[VertexId; 2]> {
-        let on_this_side = |&v: &VertexId| self.place.sides.of(v) == self.side;
-        let facets = self.walls.current().map(|wall| wall.facet);
+        let on_this_side = |&v: &VertexId| self.around.sides.of(v) == self.side;
+        let facets = self.boundary.current().map(|triangle| triangle.facet);
         let directed = facets.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
         let edges: Vec<[VertexId; 2]> = directed.filter(|e| !e.iter().any(on_this_side)).collect();
         let all: FxHashSet<[VertexId; 2]> = edges.iter().copied().collect();
@@ -286,34 +286,34 @@ impl<'a, P: PointStore> Cavity<'a, P> {
 
     /// Adds the tetrahedra of D inside.
     fn fill(&mut self, filled: &mut Filled) -> Result<(), Refused> {
-        let filling = self.walls.fill(&self.d.mesh, filled);
+        let filling = self.boundary.fill(&self.d.mesh, filled);
         self.scratch.clock.end(Task::Merging);
         filling.ok_or(Refused::NotExposed)
     }
 
     /// Swallows tetrahedra until every boundary facet is in D.
     fn expand(&mut self) -> Result<(), Refused> {
-        let mut missing = self.walls.missing();
+        let mut missing = self.boundary.missing();
         while !missing.is_empty() {
             self.index();
-            // Walls that D may have or not: new ones, and those whose tetrahedron has gone from D.
+            // Boundary triangles that D may have or not: new ones, and those whose tetrahedron has gone from D.
             let mut unknown = Vec::new();
             for outside in missing {
                 self.swallow(outside.tet(), &mut unknown)?;
             }
             let tet_at = |v: VertexId| self.scratch.tet_at.get(v.index());
-            missing = self.walls.find_again(&unknown, &self.d.mesh, &tet_at);
+            missing = self.boundary.find_again(&unknown, &self.d.mesh, &tet_at);
         }
         Ok(())
     }
 
     /// Swallows one tetrahedron, unless that has been done.
     fn swallow(&mut self, t: TetId, unknown: &mut Vec<u32>) -> Result<(), Refused> {
-        let Place {
+        let Surroundings {
             mesh,
             sides,
             region,
-        } = self.place;
+        } = self.around;
         let swallowed_by = self.scratch.swallowed_by.get(t.index());
         if swallowed_by == Some(self.side) {
             return Ok(());
@@ -329,9 +329,9 @@ impl<'a, P: PointStore> Cavity<'a, P> {
         self.swallowed.push(t);
         for c in (0..4).map(|slot| t.corner(slot)) {
             let facet = mesh.facet(c);
-            match self.walls.find(face(facet)) {
-                Some(wall) => self.walls.remove(wall),
-                None => unknown.push(self.walls.add(Wall::new(facet, mesh.twin(c)))),
+            match self.boundary.find(face(facet)) {
+                Some(triangle) => self.boundary.remove(triangle),
+                None => unknown.push(self.boundary.add(BoundaryFacet::new(facet, mesh.twin(c)))),
             }
         }
         for v in mesh.vertices(t) {
@@ -344,14 +344,14 @@ impl<'a, P: PointStore> Cavity<'a, P> {
 
     /// Inserts a vertex into D.
     fn insert(&mut self, v: VertexId, unknown: &mut Vec<u32>) {
-        let points = self.place.sides.points();
+        let points = self.around.sides.points();
         let start = self.d.locate(points, v);
         self.d.find_conflicts(points, v, start);
         for &t in self.d.conflicts() {
             for c in (0..4).map(|slot| t.corner(slot)) {
-                if let Some(wall) = self.walls.find(face(self.d.mesh.facet(c))) {
-                    self.walls.lose(wall);
-                    unknown.push(wall);
+                if let Some(triangle) = self.boundary.find(face(self.d.mesh.facet(c))) {
+                    self.boundary.lose(triangle);
+                    unknown.push(triangle);
                 }
             }
         }
@@ -372,8 +372,11 @@ impl<'a, P: PointStore> Cavity<'a, P> {
 
     /// Whether D has all triangles of f, with a tetrahedron on their inner side.
     fn has_polygon(&self) -> bool {
-        let mut of_polygon = self.walls.current().filter(|wall| wall.is_of_polygon());
-        of_polygon.all(|wall| wall.has_inside(&self.d.mesh))
+        let mut of_polygon = self
+            .boundary
+            .current()
+            .filter(|triangle| triangle.is_of_polygon());
+        of_polygon.all(|triangle| triangle.has_inside(&self.d.mesh))
     }
 
     /// The triangles of f: the facets on the hull of D that `border` encloses, oriented outwards, with the corners on
@@ -390,7 +393,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
                 let [a, b, c] = mesh.facet(inner);
                 if [a, b, c]
                     .iter()
-                    .all(|&v| self.place.sides.of(v) == Side::On)
+                    .all(|&v| self.around.sides.of(v) == Side::On)
                 {
                     for (edge, apex) in [([a, b], c), ([b, c], a), ([c, a], b)] {
                         across.insert(edge, (inner, apex));

@@ -41,7 +41,7 @@
 //! of R.
 
 use super::Retriangulation;
-use super::visibility::Sight;
+use super::visibility::Visibility;
 use crate::mesh::{TetMesh, VertexId, canonical_face};
 use crate::predicate::PointStore;
 use crate::recover::region::{Region, Side, Sides};
@@ -146,7 +146,7 @@ fn apexes(&[a, b, c, d]: &[VertexId; 4]) -> [(Facet, VertexId); 4] {
 struct Cavity<'a, P> {
     /// The vertices of the tetrahedra of R on this side and on f.
     vertices: Vec<VertexId>,
-    sight: Sight<'a, P>,
+    visibility: Visibility<'a, P>,
     /// Whether the tetrahedron in front of a facet has been found. A facet that is not here was not met yet.
     finished: FxHashMap<Facet, bool>,
     /// The facets to be finished, and some that already are.
@@ -183,7 +183,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
         let is_twice = |&s: &Facet| s[1] > s[2] && finished.contains_key(&reversed(s));
         let walls = waiting.iter().copied().filter(|s| !is_twice(s)).collect();
         Cavity {
-            sight: Sight::new(sides.points(), walls),
+            visibility: Visibility::new(sides.points(), walls),
             vertices,
             finished,
             waiting,
@@ -221,7 +221,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
 
     /// The vertex that the growing sphere through `s` reaches first in front, of those visible.
     fn apex(&self, s: Facet) -> Option<VertexId> {
-        let points = self.sight.points();
+        let points = self.visibility.points();
         let [a, b, c] = s;
         let mut invisible: Vec<VertexId> = Vec::new();
         loop {
@@ -236,7 +236,7 @@ impl<'a, P: PointStore> Cavity<'a, P> {
                         v
                     }
                 })?;
-            if self.sight.is_visible(first, s) {
+            if self.visibility.is_visible(first, s) {
                 return Some(first);
             }
             invisible.push(first);

@@ -8,7 +8,7 @@ mod visibility;
 use super::subpolygons::Face;
 use crate::mesh::{Corner, TetId, TetMesh, VertexId};
 
-/// A retriangulation of R and of what the cavities swallowed, ready to be grafted.
+/// A retriangulation of R and of what the cavities swallowed, ready to be put into the mesh.
 #[derive(Clone, Debug)]
 pub struct Retriangulation {
     /// The tetrahedra to remove, sorted.
@@ -36,7 +36,7 @@ pub struct Gluing {
 
 impl Retriangulation {
     /// Puts the new tetrahedra into the place of the old ones. Returns their ids, in order.
-    pub fn graft(&self, mesh: &mut TetMesh) -> Vec<TetId> {
+    pub fn put_into(&self, mesh: &mut TetMesh) -> Vec<TetId> {
         debug_assert!(mesh.can_replace(&self.old, &self.new));
         let Some(gluing) = &self.gluing else {
             return mesh.replace(&self.old, &self.new);

@@ -13,14 +13,14 @@ use crate::number::{Number, Polynomial, Sign, decide};
 use crate::predicate::{PointStore, formula};
 
 /// Triangles that hide what is behind them, as closed sets. No two of them overlap.
-pub(super) struct Sight<'a, P> {
+pub(super) struct Visibility<'a, P> {
     points: &'a P,
     walls: Vec<[VertexId; 3]>,
 }
 
-impl<'a, P: PointStore> Sight<'a, P> {
-    pub(super) fn new(points: &'a P, walls: Vec<[VertexId; 3]>) -> Sight<'a, P> {
-        Sight { points, walls }
+impl<'a, P: PointStore> Visibility<'a, P> {
+    pub(super) fn new(points: &'a P, walls: Vec<[VertexId; 3]>) -> Visibility<'a, P> {
+        Visibility { points, walls }
     }
 
     pub(super) fn points(&self) -> &'a P {
@@ -132,7 +132,7 @@ mod tests {
         let points = DoublePoints::new(all.iter().map(|p| p.map(f64::from)).collect());
         let [x, y, z] = wall;
         let answers = [[x, y, z], [y, z, x], [z, y, x]]
-            .map(|wall| !Sight::new(&points, vec![wall]).is_visible(u, s));
+            .map(|wall| !Visibility::new(&points, vec![wall]).is_visible(u, s));
         assert!(answers[0] == answers[1] && answers[0] == answers[2]);
         answers[0]
     }

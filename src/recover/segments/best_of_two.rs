@@ -1,16 +1,16 @@
-//! Which of two ways of placing Steiner points needs fewer of them: both recover the same segments, in step, until that
-//! is clear.
+//! Two ways of placing Steiner points, tried side by side: both recover the same segments, the longest first, until it
+//! is clear which one needs fewer points.
 //!
 //! A recovery with k Steiner points and m missing subsegments will need about k + m points at least, its *bound*, since
 //! each missing subsegment is split. (A few come back by themselves.) The bound rises with every subsegment that an
 //! insertion destroys, and tells what is to come long before the number of points does. Both recoveries split the
 //! longest subsegments first, so their bounds are compared whenever both have come down to some length:
 //!
-//! - The search for harmless places, which is costly, is given up for good once its bound is behind.
+//! - The search for places of least loss, which is costly, is given up for good once its bound is behind.
 //! - The rules, which are cheap, wait while their bound is far behind, and go on when the other one has caught up with
 //!   it.
 //!
-//! So they end with the fewer points of both, unless harmless places would have made up for a bad start. All of it
+//! So they end with the fewer points of both, unless places of least loss would have made up for a bad start. All of it
 //! depends on numbers of points only, hence is deterministic.
 
 use super::recovery::{GoOn, MOST_VERTICES_PER_SEGMENT, Placement, Recovered, SegmentRecovery};
@@ -23,43 +23,43 @@ const STEP: f64 = 0.95;
 /// Differences of so many points tell nothing.
 const NOISE: usize = 16;
 
-/// Recovers the missing subsegments, with few Steiner points. Those of `points` are then unspecified from the first
-/// Steiner point on.
+/// Recovers the missing subsegments in the better of the two ways. Those of `points` are then unspecified from the
+/// first Steiner point on.
 ///
 /// # Errors
 /// Those of the recovery by the rules.
-pub(super) fn recover_thriftily<P: GrowingStore + Clone>(
+pub(super) fn recover_best_of_two<P: GrowingStore + Clone>(
     points: &mut P,
     start: Recovered,
     missing: &[[VertexId; 2]],
     go_on: &GoOn<'_>,
 ) -> Result<Recovered, Failure> {
     let mut copy = points.clone();
-    let mut race = Race {
+    let mut both = BestOfTwo {
         rules: SegmentRecovery::new(&mut copy, start.clone(), Placement::ByRules),
-        harmless: SegmentRecovery::new(points, start, Placement::Harmless),
+        least_loss: SegmentRecovery::new(points, start, Placement::LeastLoss),
     };
-    race.rules.go_on = Some(go_on);
-    race.harmless.go_on = Some(go_on);
-    race.rules.enqueue_all(missing);
-    race.harmless.enqueue_all(missing);
-    Ok(match race.run()? {
-        Placement::ByRules => race.rules.finish(),
-        Placement::Harmless => race.harmless.finish(),
+    both.rules.go_on = Some(go_on);
+    both.least_loss.go_on = Some(go_on);
+    both.rules.enqueue_all(missing);
+    both.least_loss.enqueue_all(missing);
+    Ok(match both.run()? {
+        Placement::ByRules => both.rules.finish(),
+        Placement::LeastLoss => both.least_loss.finish(),
     })
 }
 
-struct Race<'a, P> {
+struct BestOfTwo<'a, P> {
     rules: SegmentRecovery<'a, P>,
-    harmless: SegmentRecovery<'a, P>,
+    least_loss: SegmentRecovery<'a, P>,
 }
 
-impl<P: GrowingStore> Race<'_, P> {
+impl<P: GrowingStore> BestOfTwo<'_, P> {
     /// Which one is better; that one is then complete.
     fn run(&mut self) -> Result<Placement, Failure> {
         let mut waits = false;
         loop {
-            let Some(longest) = self.harmless.longest() else {
+            let Some(longest) = self.least_loss.longest() else {
                 return self.rules_at_last();
             };
             let length = STEP * longest;
@@ -69,10 +69,10 @@ impl<P: GrowingStore> Race<'_, P> {
                 None => bound - 1,
                 Some(_) => 4 * bound + 1000,
             };
-            if !matches!(self.harmless.recover_down_to(length, most), Ok(true)) {
+            if !matches!(self.least_loss.recover_down_to(length, most), Ok(true)) {
                 return self.rules_alone();
             }
-            let bound = self.harmless.bound();
+            let bound = self.least_loss.bound();
             let far = bound + bound / 4 + NOISE;
             waits = self.rules.bound() > if waits { bound } else { far };
             if waits {
@@ -80,7 +80,7 @@ impl<P: GrowingStore> Race<'_, P> {
             }
             match self.rules.recover_down_to(length, far) {
                 Ok(done) => waits = !done,
-                Err(failure) => return self.harmless_alone(failure),
+                Err(failure) => return self.least_loss_alone(failure),
             }
             let by_rules = self.rules.bound();
             if !waits && bound > by_rules + by_rules / 16 + NOISE {
@@ -89,12 +89,12 @@ impl<P: GrowingStore> Race<'_, P> {
         }
     }
 
-    /// Once the search for harmless places has come to its end.
+    /// Once the search for places of least loss has come to its end.
     fn rules_at_last(&mut self) -> Result<Placement, Failure> {
-        match self.rules.recover_down_to(0.0, self.harmless.bound()) {
+        match self.rules.recover_down_to(0.0, self.least_loss.bound()) {
             Ok(true) => Ok(Placement::ByRules),
-            Ok(false) => Ok(Placement::Harmless),
-            Err(failure) if is_too_short(&failure) => Ok(Placement::Harmless),
+            Ok(false) => Ok(Placement::LeastLoss),
+            Err(failure) if is_too_short(&failure) => Ok(Placement::LeastLoss),
             Err(failure) => Err(failure),
         }
     }
@@ -104,12 +104,12 @@ impl<P: GrowingStore> Race<'_, P> {
         Ok(Placement::ByRules)
     }
 
-    /// After the rules have failed: harmless places may exist where these find none.
-    fn harmless_alone(&mut self, failure: Failure) -> Result<Placement, Failure> {
+    /// After the rules have failed: places of least loss may exist where these find none.
+    fn least_loss_alone(&mut self, failure: Failure) -> Result<Placement, Failure> {
         let most = MOST_VERTICES_PER_SEGMENT;
-        let ends = is_too_short(&failure) && self.harmless.recover_down_to(0.0, most) == Ok(true);
+        let ends = is_too_short(&failure) && self.least_loss.recover_down_to(0.0, most) == Ok(true);
         if ends {
-            Ok(Placement::Harmless)
+            Ok(Placement::LeastLoss)
         } else {
             Err(failure)
         }
@@ -133,7 +133,7 @@ mod tests {
     use crate::mesh::Incidence;
     use crate::plc::Complex;
     use crate::predicate::{DoublePoints, PointStore};
-    use crate::recover::segments::{SegmentIndex, Subsegments};
+    use crate::recover::segments::Subsegments;
 
     /// Layers of parallel rods, those of each across those of the one below.
     fn rods(n: u32) -> (DoublePoints, Complex) {
@@ -169,7 +169,7 @@ mod tests {
             let incidence = Incidence::new(&delaunay.mesh, points.len());
             let is_missing =
                 |&[a, b]: &[VertexId; 2]| incidence.tet_at_edge(&delaunay.mesh, a, b).is_none();
-            let subsegments = Subsegments::new(&complex, SegmentIndex::new(&complex), points.len());
+            let subsegments = Subsegments::new(&complex, points.len());
             let missing: Vec<[VertexId; 2]> = subsegments.all_ends().filter(is_missing).collect();
             assert!(!missing.is_empty());
             let start = Recovered {
@@ -184,8 +184,8 @@ mod tests {
                 assert_eq!(recovery.recover_down_to(0.0, usize::MAX), Ok(true));
                 recovery.bound()
             };
-            let both = [Placement::ByRules, Placement::Harmless].map(alone);
-            let end = recover_thriftily(&mut points.clone(), start.clone(), &missing, &|_| true);
+            let both = [Placement::ByRules, Placement::LeastLoss].map(alone);
+            let end = recover_best_of_two(&mut points.clone(), start.clone(), &missing, &|_| true);
             let end = end.expect("rods do not touch");
             let count = end.subsegments.steiner_count();
             assert!(

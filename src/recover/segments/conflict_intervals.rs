@@ -1,4 +1,4 @@
-//! How far circumspheres reach along a subsegment.
+//! For which places on a subsegment a new vertex is in conflict with which tetrahedra.
 //!
 //! A new vertex at A + u(B − A) has a conflict zone: the tetrahedra whose circumspheres contain it. For each
 //! tetrahedron these u are an interval, between the roots of a quadratic polynomial. So one search for the tetrahedra
@@ -19,9 +19,9 @@ use crate::number::vector::{cross, dot, minus};
 use crate::predicate::PointStore;
 
 /// An open interval; empty if its ends are not in order.
-pub(super) type Span = [f64; 2];
+pub(super) type Interval = [f64; 2];
 
-const EMPTY: Span = [f64::INFINITY, f64::NEG_INFINITY];
+const EMPTY: Interval = [f64::INFINITY, f64::NEG_INFINITY];
 
 /// Vertices are taken to lie in the plane of a hull facet if they are this near to it, relative to their distance from
 /// its vertices.
@@ -29,12 +29,12 @@ const FLAT: f64 = 1e-10;
 
 /// The tetrahedra whose circumspheres reach a part of a subsegment, and their intervals. Memory is used again.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Reaches {
+pub(super) struct ConflictIntervals {
     /// For each tetrahedron the search that last came to it, and its place in `tets`, or `NOWHERE`.
     marks: Vec<(u32, u32)>,
     stamp: u32,
     tets: Vec<TetId>,
-    spans: Vec<Span>,
+    intervals: Vec<Interval>,
     /// For each tetrahedron o, G and D; zeros if they are not known.
     spheres: Vec<[f64; 7]>,
 }
@@ -64,7 +64,7 @@ impl Line {
 
 const NOWHERE: u32 = u32::MAX;
 
-impl Reaches {
+impl ConflictIntervals {
     /// Finds the tetrahedra that reach the part `range` of ab, starting with `seeds`; gives up if there are more than
     /// `most`. Returns how many have been looked at.
     pub(super) fn find<P: PointStore>(
@@ -73,31 +73,31 @@ impl Reaches {
         mesh: &TetMesh,
         ab: [VertexId; 2],
         seeds: &[TetId],
-        range: Span,
+        range: Interval,
         most: usize,
     ) -> Option<usize> {
         let line = Line::new(points, ab);
         self.begin(mesh);
         let mut looked = 0;
-        let mut visit = |reaches: &mut Reaches, t: TetId| {
-            if reaches.marks[t.index()].0 == reaches.stamp {
+        let mut visit = |conflicts: &mut ConflictIntervals, t: TetId| {
+            if conflicts.marks[t.index()].0 == conflicts.stamp {
                 return;
             }
             looked += 1;
-            let span = reaches.span(points, mesh, t, &line);
-            let overlaps = span[0].max(range[0]) <= span[1].min(range[1]);
+            let interval = conflicts.interval(points, mesh, t, &line);
+            let overlaps = interval[0].max(range[0]) <= interval[1].min(range[1]);
             let place = if overlaps {
-                reaches.tets.len() as u32
+                conflicts.tets.len() as u32
             } else {
                 NOWHERE
             };
-            reaches.marks[t.index()] = (reaches.stamp, place);
+            conflicts.marks[t.index()] = (conflicts.stamp, place);
             if overlaps {
                 for slot in 0..4 {
-                    prefetch(&reaches.spheres, mesh.neighbor(t.corner(slot)).index());
+                    prefetch(&conflicts.spheres, mesh.neighbor(t.corner(slot)).index());
                 }
-                reaches.tets.push(t);
-                reaches.spans.push(span);
+                conflicts.tets.push(t);
+                conflicts.intervals.push(interval);
             }
         };
         seeds.iter().for_each(|&t| visit(self, t));
@@ -130,7 +130,7 @@ impl Reaches {
             self.spheres.resize(n, [0.0; 7]);
         }
         self.tets.clear();
-        self.spans.clear();
+        self.intervals.clear();
     }
 
     /// To be called with the tetrahedra that an operation created.
@@ -159,7 +159,7 @@ impl Reaches {
         v: VertexId,
         seeds: &[TetId],
         most: usize,
-    ) -> Span {
+    ) -> Interval {
         let line = Line::new(points, ab);
         self.begin(mesh);
         let at_v = |&&t: &&TetId| mesh.slot_of(t, v).is_some();
@@ -168,11 +168,11 @@ impl Reaches {
         let mut next = 0;
         while let Some(&t) = self.tets.get(next).filter(|_| next <= most) {
             next += 1;
-            let span = self.span(points, mesh, t, &line);
-            if span[0].max(0.0) >= span[1].min(1.0) {
+            let interval = self.interval(points, mesh, t, &line);
+            if interval[0].max(0.0) >= interval[1].min(1.0) {
                 continue;
             }
-            common = [common[0].min(span[0]), common[1].max(span[1])];
+            common = [common[0].min(interval[0]), common[1].max(interval[1])];
             let opposite = mesh.corner_of(t, v).slot();
             for slot in (0..4).filter(|&slot| slot != opposite) {
                 let n = mesh.neighbor(t.corner(slot));
@@ -193,12 +193,12 @@ impl Reaches {
     pub(super) fn vanishing(
         &self,
         mesh: &TetMesh,
-        range: Span,
+        range: Interval,
         wanted: impl Fn([VertexId; 2]) -> bool,
-        visit: impl FnMut([VertexId; 2], Span),
+        visit: impl FnMut([VertexId; 2], Interval),
     ) {
-        let narrow = |s: Span, t: TetId| {
-            let [low, high] = self.place(t).map_or(EMPTY, |i| self.spans[i]);
+        let narrow = |s: Interval, t: TetId| {
+            let [low, high] = self.place(t).map_or(EMPTY, |i| self.intervals[i]);
             let common = [s[0].max(low), s[1].min(high)];
             (common[0] <= common[1]).then_some(common)
         };
@@ -208,10 +208,16 @@ impl Reaches {
 
     /// For which u the point A + u(B − A) is in conflict with t.
     #[inline]
-    fn span<P: PointStore>(&mut self, points: &P, mesh: &TetMesh, t: TetId, line: &Line) -> Span {
+    fn interval<P: PointStore>(
+        &mut self,
+        points: &P,
+        mesh: &TetMesh,
+        t: TetId,
+        line: &Line,
+    ) -> Interval {
         let v = mesh.vertices(t);
         if any_infinite(v) {
-            return self.span_of_ghost(points, mesh, t, line);
+            return self.interval_of_ghost(points, mesh, t, line);
         }
         let sphere = &mut self.spheres[t.index()];
         if sphere[6] == 0.0 {
@@ -221,13 +227,13 @@ impl Reaches {
     }
 
     /// Segments are never beyond a hull facet, but may be in its plane.
-    fn span_of_ghost<P: PointStore>(
+    fn interval_of_ghost<P: PointStore>(
         &mut self,
         points: &P,
         mesh: &TetMesh,
         t: TetId,
         line: &Line,
-    ) -> Span {
+    ) -> Interval {
         let c = mesh.corner_of(t, VertexId::INFINITE);
         let [p, q, r] = mesh.facet(c).map(|v| points.rounded(v));
         let normal = cross(minus(q, p), minus(r, p));
@@ -237,7 +243,7 @@ impl Reaches {
             height * height <= FLAT * FLAT * dot(x, x) * dot(normal, normal)
         };
         if is_near(line.a) && is_near(line.b) {
-            self.span(points, mesh, mesh.neighbor(c), line)
+            self.interval(points, mesh, mesh.neighbor(c), line)
         } else {
             EMPTY
         }
@@ -262,7 +268,7 @@ fn circumsphere<P: PointStore>(points: &P, [o, p, q, r]: [VertexId; 4]) -> [f64;
 
 /// For which u the point A + u(B − A) is in a sphere.
 #[inline]
-fn within(&[x, y, z, gx, gy, gz, volume]: &[f64; 7], line: &Line) -> Span {
+fn within(&[x, y, z, gx, gy, gz, volume]: &[f64; 7], line: &Line) -> Interval {
     let (x, d, gradient) = (minus(line.a, [x, y, z]), line.along, [gx, gy, gz]);
     let square = volume * line.square;
     let linear = 2.0 * volume * dot(x, d) - dot(d, gradient);
@@ -272,7 +278,7 @@ fn within(&[x, y, z, gx, gy, gz, volume]: &[f64; 7], line: &Line) -> Span {
 
 /// Where s u² + l u + c < 0 for s ≥ 0; for s < 0, by rounding, it is taken for linear.
 #[inline]
-fn negative(s: f64, l: f64, c: f64) -> Span {
+fn negative(s: f64, l: f64, c: f64) -> Interval {
     if s <= 0.0 {
         return if l > 0.0 {
             [f64::NEG_INFINITY, -c / l]
@@ -307,7 +313,7 @@ mod tests {
         let mut points = DoublePoints::new(vertices);
         let all: Vec<VertexId> = (0..80).map(VertexId::new).collect();
         let mut delaunay = delaunay(&points, &all).expect("these points span space");
-        let mut reaches = Reaches::default();
+        let mut conflicts = ConflictIntervals::default();
         let mut looked = 0;
         for [a, b] in [[0, 1], [2, 3], [10, 20], [5, 60]].map(|e| e.map(VertexId::new)) {
             let [p, q] = [a, b].map(|v| points.rounded(v));
@@ -317,7 +323,7 @@ mod tests {
                 .find(|&t| delaunay.mesh.has_vertices(t, &[a]));
             let start = start.expect("a is in the mesh");
             let all = [-0.5, 1.5];
-            looked += reaches
+            looked += conflicts
                 .find(&points, &delaunay.mesh, [a, b], &[start], all, 10_000)
                 .expect("there are not so many tetrahedra");
             for u in [0.1, 0.25, 0.4, 0.5, 0.7, 0.9] {
@@ -326,7 +332,7 @@ mod tests {
                 delaunay.find_conflicts(&points, v, start);
                 let mut zone = delaunay.conflicts().to_vec();
                 zone.sort_unstable();
-                let tets = reaches.tets.iter().zip(&reaches.spans);
+                let tets = conflicts.tets.iter().zip(&conflicts.intervals);
                 let mut told: Vec<TetId> = tets
                     .filter(|(_, s)| s[0] < u && u < s[1])
                     .map(|(&t, _)| t)

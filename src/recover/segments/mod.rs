@@ -11,7 +11,7 @@
 //!
 //! Each missing subsegment is split (`split.rs`), the longest first (`recovery.rs`).
 //!
-//! # Thrift
+//! # Few points
 //! Which points are inserted is a choice. Two ways are tried side by side until it is clear which one needs fewer
 //! points (`best_of_two.rs`): the place that the rules of `split.rs` say, and the place that destroys the fewest other
 //! subsegments (`least_loss.rs`). In the end, points that turn out unnecessary are removed (`prune.rs`).
@@ -34,12 +34,12 @@ use crate::error::Failure;
 use crate::mesh::{Incidence, VertexId};
 use crate::plc::Complex;
 use crate::predicate::GrowingStore;
-use best_of_two::recover_thriftily;
+use best_of_two::recover_best_of_two;
 pub use recovery::{Changes, GoOn};
 use recovery::{Placement, Recovered, SegmentRecovery};
-pub use segment_index::SegmentIndex;
-pub(super) use split::sight;
-use straight_walk::{Scouted, scout};
+pub(crate) use segment_index::SegmentIndex;
+pub(super) use split::angle_measure;
+use straight_walk::{Ahead, look_ahead};
 pub use subsegments::Subsegments;
 
 /// Inserts Steiner points into the Delaunay tetrahedralization of the complex's vertices until every segment is there.
@@ -57,11 +57,14 @@ pub fn recover_segments<P: GrowingStore + Clone>(
     go_on: &GoOn<'_>,
 ) -> Result<(Subsegments, Incidence), Failure> {
     let first = points.len();
-    let subsegments = Subsegments::new(complex, SegmentIndex::new(complex), first);
+    let subsegments = Subsegments::new(complex, first);
     let incidence = Incidence::new(&delaunay.mesh, first);
     let missing = |&[a, b]: &[VertexId; 2]| {
         let start = incidence.tet_at(a).expect("every vertex is in the mesh");
-        !matches!(scout(points, &delaunay.mesh, start, a, b), Scouted::Edge(_))
+        !matches!(
+            look_ahead(points, &delaunay.mesh, start, a, b),
+            Ahead::Edge(_)
+        )
     };
     let missing: Vec<[VertexId; 2]> = subsegments.all_ends().filter(missing).collect();
     if missing.is_empty() {
@@ -72,7 +75,7 @@ pub fn recover_segments<P: GrowingStore + Clone>(
         incidence,
         subsegments,
     };
-    let recovered = recover_thriftily(points, start, &missing, go_on)?;
+    let recovered = recover_best_of_two(points, start, &missing, go_on)?;
     points.truncate(first);
     recovered.subsegments.push_all(points);
     let recovered = recovered.pruned(points);

@@ -6,11 +6,11 @@
 //! once, but for some that have come back.
 
 use super::Request;
-use super::conflict_intervals::{Reaches, Span};
+use super::conflict_intervals::{ConflictIntervals, Interval};
 use super::inner_edges::inner_edges;
 use super::segment_index::key;
 use super::split::{self, Reference, Subsegment, split_parameter};
-use super::straight_walk::{Crossing, Scouted, scout};
+use super::straight_walk::{Ahead, Crossed, look_ahead};
 use super::subsegments::Subsegments;
 use crate::delaunay::Delaunay;
 use crate::error::{Failure, GaveUp};
@@ -25,7 +25,7 @@ use std::collections::BinaryHeap;
 /// need one every few ulps.
 pub(super) const MOST_VERTICES_PER_SEGMENT: usize = 1 << 14;
 
-/// How many tetrahedra the search for harmless places may look at: so many, and so many for each Steiner point.
+/// How many tetrahedra the search for places of least loss may look at: so many, and so many for each Steiner point.
 const EFFORT: [usize; 2] = [1_000_000, 1500];
 
 /// A tetrahedralization with all segments.
@@ -51,7 +51,7 @@ pub(super) enum Placement {
     /// Where the rules of [`super::split`] say.
     ByRules,
     /// Where the fewest other subsegments are destroyed.
-    Harmless,
+    LeastLoss,
 }
 
 /// A subsegment to look at: the bits of its length, which are in the order of the lengths, and its ends, in one number,
@@ -78,14 +78,14 @@ pub(super) struct SegmentRecovery<'a, P> {
     pub(super) incidence: Incidence,
     pub(super) subsegments: Subsegments,
     placement: Placement,
-    /// How many tetrahedra the search for harmless places has looked at.
+    /// How many tetrahedra the search for places of least loss has looked at.
     pub(super) looked: usize,
     /// Subsegments to look at, the longest first.
     missing: BinaryHeap<Missing>,
     /// Memory used again.
-    pub(super) reaches: Reaches,
-    pub(super) harmful: Vec<Span>,
-    crossing: Crossing,
+    pub(super) conflicts: ConflictIntervals,
+    pub(super) losses: Vec<Interval>,
+    crossed: Crossed,
     lost: Vec<[VertexId; 2]>,
     zone: Stamps,
     /// What has changed, if that is of interest.
@@ -111,9 +111,9 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
             placement,
             looked: 0,
             missing: BinaryHeap::new(),
-            reaches: Reaches::default(),
-            harmful: Vec::new(),
-            crossing: Crossing::default(),
+            conflicts: ConflictIntervals::default(),
+            losses: Vec::new(),
+            crossed: Crossed::default(),
             lost: Vec::new(),
             zone: Stamps::default(),
             changes: None,
@@ -178,7 +178,7 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
                 let Some(s) = self.subsegments.segment_of(a, b) else {
                     return Ok(None);
                 };
-                self.crossing.clear();
+                self.crossed.clear();
                 let t = self.place(s, [a, b])?;
                 self.split(s, [a, b], t).map(Some)
             }
@@ -201,11 +201,11 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
             .tet_at(a)
             .expect("every vertex is in the mesh");
         let mesh = &self.delaunay.mesh;
-        match scout(self.points, mesh, start, a, b) {
-            Scouted::Edge(_) => Ok(()),
-            Scouted::Vertex(v) => Err(self.vertex_on_segment(s, v)),
-            Scouted::Crosses(first) => {
-                self.crossing.follow(self.points, mesh, first, a, b);
+        match look_ahead(self.points, mesh, start, a, b) {
+            Ahead::Edge(_) => Ok(()),
+            Ahead::Vertex(v) => Err(self.vertex_on_segment(s, v)),
+            Ahead::Crosses(first) => {
+                self.crossed.follow(self.points, mesh, first, a, b);
                 let t = self.place(s, [a, b])?;
                 self.split(s, [a, b], t).map(|_| ())
             }
@@ -215,10 +215,10 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
     /// The encroaching vertex that sees ab under the largest angle, among those of the crossed tetrahedra.
     fn reference(&self, s: u32, [a, b]: [VertexId; 2]) -> Option<Reference> {
         let (pa, pb) = (self.points.rounded(a), self.points.rounded(b));
-        let vertices = self.crossing.vertices.iter();
+        let vertices = self.crossed.vertices.iter();
         let seen = vertices
             .filter(|&&v| v != a && v != b)
-            .map(|&v| (split::sight(self.points.rounded(v), pa, pb), v));
+            .map(|&v| (split::angle_measure(self.points.rounded(v), pa, pb), v));
         let (_, v) = seen.min_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)))?;
         let shares = self.shared_end(s, v);
         Some(Reference {
@@ -235,7 +235,7 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
                 let others = self.subsegments.ends(other);
                 (0..2).find(|&i| others.contains(&ends[i]))
             }
-            None => (0..2).find(|&i| self.subsegments.index().find(v, ends[i]).is_some()),
+            None => (0..2).find(|&i| self.subsegments.segment_with_ends(v, ends[i]).is_some()),
         }
     }
 
@@ -261,10 +261,10 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
             return middle.ok_or_else(|| self.too_short(ends));
         };
         Ok(match self.placement {
-            Placement::Harmless => {
-                let crossing = std::mem::take(&mut self.crossing);
-                let place = self.less_harmful(directed, &subsegment, t, &crossing.tets);
-                self.crossing = crossing;
+            Placement::LeastLoss => {
+                let crossed = std::mem::take(&mut self.crossed);
+                let place = self.place_of_least_loss(directed, &subsegment, t, &crossed.tets);
+                self.crossed = crossed;
                 place.into()
             }
             Placement::ByRules => t.into(),
@@ -276,7 +276,7 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
         let ends = self.subsegments.ends(s);
         let v = self.points.push_on_segment(ends[0], ends[1], t);
         let [from, to] = [a, b].map(|v| self.subsegments.parameter(s, v).value);
-        let near = self.crossing.at((t.value - from) / (to - from));
+        let near = self.crossed.at((t.value - from) / (to - from));
         if let Some(near) = near.or_else(|| self.incidence.tet_at(a)) {
             self.delaunay.start_at(near);
         }
@@ -335,7 +335,7 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
         self.delaunay.replace_conflicts(v);
         let created = self.delaunay.created();
         self.incidence.update(&self.delaunay.mesh, created);
-        self.reaches.forget(created);
+        self.conflicts.forget(created);
         true
     }
 

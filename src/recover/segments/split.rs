@@ -131,7 +131,7 @@ pub(super) fn fewest_bits(t: f64, slack: f64) -> f64 {
 
 /// The cosine-like measure by which the vertex p sees ab: smaller for larger angles, negative inside the diametral
 /// sphere.
-pub fn sight(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
+pub fn angle_measure(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     let (u, v) = (minus(a, p), minus(b, p));
     dot(u, v) / (dot(u, u) * dot(v, v)).sqrt()
 }

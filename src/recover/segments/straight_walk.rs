@@ -4,9 +4,9 @@ use crate::mesh::{TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 use crate::recover::tables::Stamps;
 
-/// What one finds on leaving a in the direction of b.
+/// What lies ahead of a in the direction of b.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Scouted {
+pub enum Ahead {
     /// The edge ab is in the mesh; a tetrahedron that has it.
     Edge(TetId),
     /// The ray runs along an edge to this vertex, which lies between a and b.
@@ -17,17 +17,17 @@ pub enum Scouted {
 
 /// Looks from a towards b, starting in `t`, a finite tetrahedron at a. A visibility walk within the star of a; the mesh
 /// must be Delaunay, so that it cannot cycle.
-pub fn scout<P: PointStore>(
+pub fn look_ahead<P: PointStore>(
     points: &P,
     mesh: &TetMesh,
     mut t: TetId,
     a: VertexId,
     b: VertexId,
-) -> Scouted {
+) -> Ahead {
     'walk: loop {
         let v = mesh.vertices(t);
         if v.contains(&b) {
-            return Scouted::Edge(t);
+            return Ahead::Edge(t);
         }
         let at_a = mesh.slot_of(t, a).expect("the walk stays in the star of a");
         let mut along = [true; 4];
@@ -43,15 +43,15 @@ pub fn scout<P: PointStore>(
         }
         let mut off = (0..4).filter(|&slot| slot != at_a && !along[slot]);
         return match (off.next(), off.next()) {
-            (Some(slot), None) => Scouted::Vertex(v[slot]),
-            _ => Scouted::Crosses(t),
+            (Some(slot), None) => Ahead::Vertex(v[slot]),
+            _ => Ahead::Crosses(t),
         };
     }
 }
 
 /// What a segment passes through. Memory is used again.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Crossing {
+pub(super) struct Crossed {
     /// The finite tetrahedra from the star of its first end on. Those that it touches only along an edge or a facet may
     /// be missing: for choosing a reference point, not for deciding.
     pub tets: Vec<TetId>,
@@ -60,7 +60,7 @@ pub(super) struct Crossing {
     seen: Stamps,
 }
 
-impl Crossing {
+impl Crossed {
     /// Forgets what was found.
     pub(super) fn clear(&mut self) {
         self.tets.clear();

@@ -37,14 +37,14 @@ struct Chain {
 }
 
 impl Subsegments {
-    pub(super) fn new(complex: &Complex, index: SegmentIndex, first_steiner: usize) -> Subsegments {
+    pub(super) fn new(complex: &Complex, first_steiner: usize) -> Subsegments {
         let chain = |ends: [VertexId; 2]| Chain {
             ends,
             inner: [ends[1], ends[0]],
             vertices: 2,
         };
         Subsegments {
-            index,
+            index: SegmentIndex::new(complex),
             segments: complex.segments.iter().map(|s| chain(s.ends)).collect(),
             around: Vec::new(),
             places: Vec::new(),
@@ -52,9 +52,14 @@ impl Subsegments {
         }
     }
 
-    /// Finds segments of the input by their ends.
-    pub fn index(&self) -> &SegmentIndex {
+    /// The segments of the input, by their ends.
+    pub(crate) fn index(&self) -> &SegmentIndex {
         &self.index
+    }
+
+    /// The segment of the input with the ends a and b.
+    pub(super) fn segment_with_ends(&self, a: VertexId, b: VertexId) -> Option<u32> {
+        self.index.find(a, b)
     }
 
     /// The segment that ab is a subsegment of, as an index in [`Complex::segments`].
@@ -87,14 +92,14 @@ impl Subsegments {
     }
 
     /// Whether a and b are vertices of one segment of the input.
-    pub fn share_segment(&self, index: &SegmentIndex, a: VertexId, b: VertexId) -> bool {
+    pub fn share_segment(&self, a: VertexId, b: VertexId) -> bool {
         let is_on = |s: u32, v: VertexId| {
             self.ends(s).contains(&v) || self.segment_of_steiner(v) == Some(s)
         };
         let segment = |v: VertexId| self.segment_of_steiner(v);
         match segment(a).or(segment(b)) {
             Some(s) => is_on(s, a) && is_on(s, b),
-            None => index.find(a, b).is_some(),
+            None => self.index.find(a, b).is_some(),
         }
     }
 
@@ -128,16 +133,19 @@ impl Subsegments {
         })
     }
 
-    /// Appends the directed subsegments that bound a polygon, edge by edge. An edge that is no segment of the input is
-    /// there itself: it is an edge of a polygon that has been cut.
-    pub(crate) fn append_boundary(
-        &self,
-        index: &SegmentIndex,
-        polygon: &Polygon,
-        boundary: &mut Vec<[VertexId; 2]>,
-    ) {
+    /// The directed subsegments that bound a polygon.
+    pub fn boundary(&self, polygon: &Polygon) -> Vec<[VertexId; 2]> {
+        let mut boundary = Vec::with_capacity(polygon.edges.len());
+        self.append_boundary(polygon, &mut boundary);
+        boundary
+    }
+
+    /// Appends the directed subsegments that bound a polygon, edge by edge. An edge that is no segment of the input
+    /// is there itself: it is an edge of a polygon that has been cut.
+    pub(crate) fn append_boundary(&self, polygon: &Polygon, boundary: &mut Vec<[VertexId; 2]>) {
         for &[a, b] in &polygon.edges {
-            let Some(s) = index.find(a, b).filter(|&s| self.vertices_on(s) > 2) else {
+            let segment = self.index.find(a, b);
+            let Some(s) = segment.filter(|&s| self.vertices_on(s) > 2) else {
                 boundary.push([a, b]);
                 continue;
             };
@@ -302,7 +310,7 @@ mod tests {
             segments: segments.collect(),
             ..Complex::default()
         };
-        let mut subsegments = Subsegments::new(&complex, SegmentIndex::new(&complex), 40);
+        let mut subsegments = Subsegments::new(&complex, 40);
         let mut lists: Vec<Vec<VertexId>> =
             complex.segments.iter().map(|s| s.ends.into()).collect();
         let check = |subsegments: &Subsegments, lists: &[Vec<VertexId>]| {
@@ -321,7 +329,7 @@ mod tests {
                     marker: 0,
                 };
                 let mut boundary = Vec::new();
-                subsegments.append_boundary(subsegments.index(), &polygon, &mut boundary);
+                subsegments.append_boundary(&polygon, &mut boundary);
                 let mut steps: Vec<_> = list.windows(2).map(|w| [w[0], w[1]]).collect();
                 steps.push(polygon.edges[1]);
                 assert_eq!(boundary, steps);

@@ -14,7 +14,7 @@ pub fn picture(case: &Case) -> Option<String> {
     if piece.tets.len() > MOST_TETRAHEDRA {
         return None;
     }
-    let points = &case.cdt.points;
+    let points = case.cdt.points();
     let at = |v: u32| points.rounded(VertexId(v));
     let frame = case.insertion.frame;
     let tets: Vec<[u32; 4]> = piece.tets.iter().map(|t| t.map(|v| v.0)).collect();

@@ -108,8 +108,8 @@ fn tets_by(cdt: &Cdt, insertion: Insertion) -> Result<(Tets, PolygonCounts), Fai
 }
 
 fn sorted_tets(cdt: &Cdt) -> Tets {
-    let sorted = cdt.mesh.finite().map(|t| {
-        let mut v = cdt.mesh.vertices(t);
+    let sorted = cdt.mesh().finite().map(|t| {
+        let mut v = cdt.mesh().vertices(t);
         v.sort_unstable();
         v
     });
@@ -136,7 +136,7 @@ pub fn run(cdt: &Cdt, times: FlipOrder, expected: Option<&Tets>) -> Run {
         ..Disorder::default()
     };
     for insertion in &trace.insertions {
-        total.add(&disorder(&cdt.points, insertion, times));
+        total.add(&disorder(cdt.points(), insertion, times));
     }
     let outcome = match &result {
         Ok(tets) if Some(tets) != expected => DIFFERENT,
@@ -150,7 +150,7 @@ pub fn run(cdt: &Cdt, times: FlipOrder, expected: Option<&Tets>) -> Run {
         left: outcome::left(&result),
         counts,
         disorder: total,
-        pieces: last.map_or(Vec::new(), |i| pieces_left(&cdt.points, i)),
+        pieces: last.map_or(Vec::new(), |i| pieces_left(cdt.points(), i)),
     }
 }
 

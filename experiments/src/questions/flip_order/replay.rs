@@ -26,7 +26,7 @@ pub fn replay(member: Member, times: FlipOrder) -> String {
         times
     );
     for insertion in &trace.insertions {
-        text += &describe(&cdt.points, insertion, times);
+        text += &describe(cdt.points(), insertion, times);
     }
     let run = run(&cdt, times, reference.as_ref().ok());
     match result {

@@ -86,10 +86,10 @@ fn updated(plc: &Plc, row: Row, seconds: f64, scene: bool) -> Result<Row, Failur
     let mut report = Report::default();
     let start = Instant::now();
     let mut cdt = Cdt::begin(plc, &Options::default(), &mut report)?;
-    let before = scene.then(|| tets(&cdt.mesh));
+    let before = scene.then(|| tets(cdt.mesh()));
     cdt.insert_polygons(Insertion::Cavity, &mut report, &mut |_| ())?;
     let build = start.elapsed().as_secs_f64();
-    let first = tets(&cdt.mesh);
+    let first = tets(cdt.mesh());
 
     let polygons = cdt.complex().polygons.len();
     let stride = polygons.div_ceil(MOST_POLYGONS).max(1);
@@ -97,7 +97,7 @@ fn updated(plc: &Plc, row: Row, seconds: f64, scene: bool) -> Result<Row, Failur
     let without_is_before = before.map(|before| {
         let mut without = cdt.clone();
         let deleted = (0..polygons).all(|f| without.delete_polygon(f).is_ok());
-        deleted && tets(&without.mesh) == before
+        deleted && tets(without.mesh()) == before
     });
     let mut rounds: Vec<Round> = Vec::new();
     let start = Instant::now();
@@ -132,7 +132,7 @@ fn updated(plc: &Plc, row: Row, seconds: f64, scene: bool) -> Result<Row, Failur
         update_over_build: ratio(update, Some(build)),
         outcome: outcome::OK,
         without_is_before,
-        same: Some(tets(&cdt.mesh) == first),
+        same: Some(tets(cdt.mesh()) == first),
         ..row
     })
 }

@@ -62,7 +62,7 @@ impl<P: PointStore> Repair<'_, P> {
             let positive = |&v: &[VertexId; 4]| self.points.orient3d(v).is_positive();
             if !fewer
                 || !new.iter().all(positive)
-                || ring.len() == 4 && self.subsegments.share_segment(self.index, r(0), r(2))
+                || ring.len() == 4 && self.subsegments.share_segment(r(0), r(2))
             {
                 return None;
             }
@@ -90,7 +90,7 @@ impl<P: PointStore> Repair<'_, P> {
                 let same = f == self.pieces.polygon_of(other as usize);
                 if !same
                     || !self.pieces.is_cut(f)
-                    || self.subsegments.share_segment(self.index, r, s)
+                    || self.subsegments.share_segment(r, s)
                     || !self.is_convex(f, [p, r, q, s])
                 {
                     return false;

@@ -14,9 +14,9 @@
 //! - *2-2.* Where the domain is on one side of f only, the choice between ab and cd is free: with a shim next to the
 //!   outside the surface of f runs along the wrong side of it. It is moved to the other side, and the shim is outside.
 //!   No tetrahedron that is kept changes, so all their other faces are locally Delaunay as before.
-//! - *3-2 and 4-4*, of an edge of the shim, with the surface of f moved along: accepted if all new tetrahedra
-//!   are positive, and all faces on no polygon are locally Delaunay (without perturbation) afterwards: exact tests
-//!   before anything changes.
+//! - *3-2 and 4-4*, of an edge of the shim, with the surface of f moved along: accepted if all new tetrahedra are
+//!   positive, and all faces on no polygon are locally Delaunay (without perturbation) afterwards: exact tests before
+//!   anything changes.
 //!
 //! What remains is reported. The moved surface is one to one in projection, has the same boundary, and loses no
 //! segment. Shims are tried in the order of their vertices, so that equal meshes are repaired equally.
@@ -31,9 +31,8 @@ use crate::number::Sign;
 use crate::predicate::PointStore;
 use crate::recover::domain::DomainMarks;
 use crate::recover::flatten::{Pieces, Plane, ShimCounts};
-use crate::recover::segments::{SegmentIndex, Subsegments};
-use crate::recover::subpolygons::Subpolygons;
-use crate::recover::subpolygons::face;
+use crate::recover::segments::Subsegments;
+use crate::recover::subpolygons::{Subpolygons, face};
 use std::borrow::Cow;
 
 /// Which polygons that were cut each vertex is on.
@@ -99,8 +98,6 @@ pub struct Repair<'a, P> {
     pub pieces: &'a Pieces,
     /// The segments as they are in the mesh.
     pub subsegments: &'a Subsegments,
-    /// Finds segments of the input.
-    pub index: &'a SegmentIndex,
 }
 
 impl<P: PointStore> Repair<'_, P> {
@@ -209,9 +206,7 @@ impl<P: PointStore> Repair<'_, P> {
         if !is_inner([a, c, d]) || !is_inner([b, c, d]) || !self.is_convex(f, [a, c, b, d]) {
             return false;
         }
-        if self.subsegments.segment_of(a, b).is_some()
-            || self.subsegments.share_segment(self.index, c, d)
-        {
+        if self.subsegments.segment_of(a, b).is_some() || self.subsegments.share_segment(c, d) {
             return false;
         }
         // All others at ab are outside, and ab is on nothing else; cd is inside, on nothing.
@@ -293,7 +288,7 @@ mod tests {
         let triangle = |v: [usize; 3]| face(v.map(VertexId::new));
         let lower = [(triangle([0, 1, 3]), 0), (triangle([1, 2, 3]), 1)];
         let upper = [(triangle([0, 1, 2]), 0), (triangle([0, 2, 3]), 1)];
-        let (index, subsegments) = (SegmentIndex::new(&pieces.complex), Subsegments::default());
+        let subsegments = Subsegments::default();
         let incidence = Incidence::new(&mesh, 6);
         // Wherever the surface runs, below the shim or above it.
         for surface in [lower, upper] {
@@ -312,7 +307,6 @@ mod tests {
                 },
                 pieces: &pieces,
                 subsegments: &subsegments,
-                index: &index,
             };
             let counts = repair.run(false);
             let expected = ShimCounts {
