@@ -1,7 +1,7 @@
 //! Readers on files that nobody meant: random bytes, and valid files of each format that were cut, spliced and edited.
 //! No reader panics, none allocates or loops by a count that a header announces, and what is accepted is in range.
 //!
-//! `PROPTEST_CASES=1000000 cargo test --release --test fuzz_formats` looks harder.
+//! `PROPTEST_CASES=1000000 cargo test --release --test suite fuzz_formats` looks harder.
 
 use proptest::prelude::*;
 use std::time::{Duration, Instant};

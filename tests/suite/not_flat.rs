@@ -1,7 +1,7 @@
 //! Polygons that are flat only to rounding (paper, end of §3.1 and of §3.2): whatever it takes, both algorithms end in
 //! meshes that the verifier accepts.
 //!
-//! `NOT_FLAT_CASES=2000 cargo test --release --test not_flat -- --nocapture` looks harder, and prints counts.
+//! `NOT_FLAT_CASES=2000 cargo test --release --test suite not_flat -- --nocapture` looks harder, and prints counts.
 
 use crate::common::almost_flat::FAMILIES;
 use crate::common::quiet;

@@ -2,7 +2,7 @@
 //! library does not panic; a result that passes the exact judgement is the CDT; after a failure the region is as it
 //! was, and what the failure carries along fails again by itself.
 //!
-//! `PROPTEST_CASES=20000 cargo test --release --test rounded_flips` looks harder.
+//! `PROPTEST_CASES=20000 cargo test --release --test suite rounded_flips` looks harder.
 
 use crate::common::{plc_of_points, quiet, sorted_tets};
 use proptest::prelude::*;
