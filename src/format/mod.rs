@@ -35,12 +35,15 @@ pub use conflicts_vtu::write_conflicts;
 pub use error::{FormatError, Place, Reason};
 pub use medit::read_medit;
 pub use mesh_error::{MeshFileError, MeshLineError, UnwritableMesh};
-pub use mesh_file::{mesh_paths, read_mesh, write_mesh, write_mesh_to};
+#[doc(hidden)]
+pub use mesh_file::mesh_paths;
+pub use mesh_file::{read_mesh, write_mesh, write_mesh_to};
 pub use obj::read_obj;
 pub use off::read_off;
 pub use ply::read_ply;
 pub use poly::{read_node, read_poly, read_smesh};
 pub use poly_file::write_poly;
+#[doc(hidden)]
 pub use staged::write_complete;
 pub use stl::read_stl;
 
@@ -91,6 +94,7 @@ pub fn read_plc(path: &Path) -> Result<(Plc, Vec<Note>), FormatError> {
 }
 
 /// The file that holds the vertices of a `.poly` or `.smesh` file whose own list of vertices is empty.
+#[doc(hidden)]
 pub fn node_path(path: &Path) -> PathBuf {
     sibling(path, "node")
 }
