@@ -54,6 +54,35 @@ pub enum NoteCode {
     RegionOutside,
     /// Bounds of volumes, which are not applied, as nothing is refined (`region-volume`).
     RegionVolume,
+    /// A number has an exponent as Fortran writes it, `1.0D+00` (`fortran-exponent`).
+    FortranExponent,
+    /// Commas between numbers are read as blanks (`comma-separator`).
+    CommaSeparator,
+    /// A comment of a kind that the format does not have is skipped (`foreign-comment`).
+    ForeignComment,
+    /// A keyword that is missing, or in two words, is taken as read: `end solid` in STL, no `End` in Medit
+    /// (`keywords`).
+    Keywords,
+    /// What follows the end of the data is ignored (`trailing-data`).
+    TrailingData,
+    /// A section of a Medit file with an unknown keyword is skipped (`unknown-section`).
+    UnknownSection,
+    /// Solid elements of a Medit file are ignored, because its surface counts (`volume-elements`).
+    VolumeElements,
+    /// The file has a version that its format does not have (`format-version`).
+    FormatVersion,
+    /// Vertices are not numbered one after the other; corners are vertices of those numbers (`vertex-numbers`).
+    VertexNumbers,
+    /// A polygon that ends with its first corner is read without it (`closed-ring`).
+    ClosedRing,
+    /// Attributes or markers of vertices that the header announces are missing, and read as 0 (`missing-columns`).
+    MissingColumns,
+    /// Columns after those that the header announces are ignored (`extra-columns`).
+    ExtraColumns,
+    /// Lines do not begin with rows of the table, so its words are read one by one (`line-breaks`).
+    LineBreaks,
+    /// The name of a file says no format, so its content does (`format-by-content`).
+    FormatByContent,
 }
 
 impl NoteCode {
@@ -83,6 +112,20 @@ impl NoteCode {
             NoteCode::HoleIgnored => "hole-ignored",
             NoteCode::RegionOutside => "region-outside",
             NoteCode::RegionVolume => "region-volume",
+            NoteCode::FortranExponent => "fortran-exponent",
+            NoteCode::CommaSeparator => "comma-separator",
+            NoteCode::ForeignComment => "foreign-comment",
+            NoteCode::Keywords => "keywords",
+            NoteCode::TrailingData => "trailing-data",
+            NoteCode::UnknownSection => "unknown-section",
+            NoteCode::VolumeElements => "volume-elements",
+            NoteCode::FormatVersion => "format-version",
+            NoteCode::VertexNumbers => "vertex-numbers",
+            NoteCode::ClosedRing => "closed-ring",
+            NoteCode::MissingColumns => "missing-columns",
+            NoteCode::ExtraColumns => "extra-columns",
+            NoteCode::LineBreaks => "line-breaks",
+            NoteCode::FormatByContent => "format-by-content",
         }
     }
 }

@@ -1,11 +1,11 @@
-//! Many rows of a text file, read by all threads: the file is cut at line ends, and the rows in the pieces are read at
-//! once.
+//! Many rows of a text file, read by all threads: the file is cut at line ends, and the pieces are read at once.
 //!
 //! Each format has one function that reads a row, and a loop that calls it for one row after the other. Before the
-//! loop, [`read_ahead`] lets threads call it for whole pieces, as if each began with a row, and takes what they read in
-//! the order of the file, as long as every piece began where the one before it had ended cleanly. It stops before the
-//! first piece in which anything is wrong, or with which there would not be too few rows, and the loop goes on from
-//! there. So rows and errors, with their lines, are those of the loop alone, whatever the number of threads.
+//! loop, [`read_ahead`] lets threads call it for whole pieces, as if each began with a row, and takes what they read
+//! in the order of the file, as long as every piece began where the one before it had ended cleanly. It stops before
+//! the first piece in which anything is wrong, or with which there would not be too few rows, and the loop goes on
+//! from there. So rows, notes and errors, with their lines, are those of the loop alone, whatever the number of
+//! threads.
 
 use super::text::Text;
 use rayon::prelude::*;
@@ -30,8 +30,7 @@ pub(super) trait Rows: Send {
     /// How many there are.
     fn len(&self) -> u64;
 
-    /// Appends those of the piece of the file that follows. If they are not what could follow, it says so, and appends
-    /// nothing.
+    /// Appends those of the piece of the file that follows. If they cannot follow, it says so and appends nothing.
     fn append(&mut self, next: Self) -> bool;
 }
 
@@ -84,7 +83,7 @@ fn read_pieces<'a, R: Rows, E>(
     let (mut last, mut most) = (0, 0);
     let (start, before) = (text.rest().len(), rows.len());
     // The pool is not even started for a small file, nor asked about a few rows, of which there may be many lists.
-    let is_worthwhile = |text: &Text, left: u64| {
+    let is_worthwhile = |text: &mut Text, left: u64| {
         let large = text.rest().len() >= 2 * size && left >= (size / SHORTEST) as u64;
         large && !text.has_word() && rayon::current_num_threads() > 1
     };
@@ -111,11 +110,11 @@ fn read_pieces<'a, R: Rows, E>(
                 read(&mut text, &mut rows).ok()?;
                 last = text.number_of_line();
             }
-            Some((rows, last, piece.len(), text.number_of_line()))
+            Some((rows, last, piece.len(), text))
         };
         let found: Vec<Option<_>> = pieces.into_par_iter().map(read_piece).collect();
         for piece in found {
-            let Some((next, line, bytes, lines)) = piece else {
+            let Some((next, line, bytes, piece)) = piece else {
                 return last;
             };
             if rows.len() + next.len() >= count || !rows.append(next) {
@@ -124,7 +123,7 @@ fn read_pieces<'a, R: Rows, E>(
             if line > 0 {
                 last = text.number_of_line() + line;
             }
-            text.skip(bytes, lines);
+            text.skip_piece(bytes, piece);
         }
     }
     last

@@ -1,7 +1,9 @@
-//! Pieces of files are read as whole files are, with the same errors: here by three threads, with pieces of any size.
+//! Pieces of files are read as whole files are, with the same notes and errors: here by one, two and five threads, with
+//! pieces of any size.
 
 use super::super::tetgen_mesh::read_table;
 use super::super::*;
+use crate::exchange::{Note, Plc};
 use proptest::prelude::*;
 use std::cell::Cell;
 use std::sync::LazyLock;
@@ -26,8 +28,8 @@ type Reading = Result<(Plc, Vec<Note>), FormatError>;
 
 fn plc(read: fn(&[u8]) -> Reading) -> Read {
     Box::new(move |bytes| {
-        let plc = read(bytes).map_err(|error| error.to_string())?;
-        Ok(format!("{plc:?}"))
+        let (plc, notes) = read(bytes).map_err(|error| error.to_string())?;
+        Ok(format!("{plc:?} {notes:?}"))
     })
 }
 
@@ -78,6 +80,43 @@ fn files() -> Vec<(Read, String)> {
     let ply = "ply\nformat ascii 1.0\nelement vertex 60\nproperty float x\nproperty float y\nproperty float z\n\
         element face 60\nproperty list uchar int vertex_index\nelement edge 60\nproperty int vertex1\n\
         property int vertex2\nend_header\n";
+    let attributed = rows(&|i| match i % 10 {
+        7 => format!("{} {} 1.5 // c\n", i + 1, point(i)),
+        8 => format!("{} {} 1.5 -2 {i} 9\n", i + 1, point(i)),
+        _ => format!("{} {} 1.5 -2 {i}\n", i + 1, point(i)),
+    });
+    let rings = rows(&|i| {
+        let [a, b, c] = corners(i);
+        format!("4 {a} {b} {c} {a}\n")
+    });
+    let obj_named = rows(&|i| {
+        let name = ["g a\n", "o b\n", "usemtl c\n", "g\n"]
+            .get(i / 5 % 7)
+            .unwrap_or(&"");
+        format!(
+            "v {}\n{name}f {} {} {}\nl 1 2\n",
+            point(i),
+            a(i),
+            b(i),
+            c(i)
+        )
+    });
+    let ends = [
+        "endloop\nendfacet\n",
+        "end loop\nendfacet\n",
+        "endfacet\n",
+        "endloop\n",
+        "",
+    ];
+    let stl_bare = rows(&|i| {
+        let corners = [i, i + 1, i + 2].map(|k| format!("vertex {}\n", point(k)));
+        let solid = if i % 20 == 19 { "solid b\n" } else { "" };
+        let end = ends[if i % 3 == 0 { i / 3 % 5 } else { 0 }];
+        format!(
+            "{solid}facet normal 0 0 1\nouter loop\n{}{end}",
+            corners.concat()
+        )
+    });
     let points = rows(&|i| format!("{}\n", point(i)));
     let triangles = rows(&|i| format!("3 {} {} {}\n", a(i) - 1, b(i) - 1, c(i) - 1));
     let edges = rows(&|i| format!("{} {}\n", a(i) - 1, b(i) - 1));
@@ -105,6 +144,21 @@ fn files() -> Vec<(Read, String)> {
                 "MeshVersionFormatted 2\nDimension 3\nVertices\n{N}\n{references}\nTriangles {N}\n{medit}End\n"
             ),
         ),
+        (plc(read_node), format!("{N} 3 2 1\n{attributed}")),
+        (
+            plc(read_node),
+            format!("{N} 3 1\n{}", numbered.replace("31 ", "310 ")),
+        ),
+        (
+            plc(read_node),
+            format!("{N} 3 1\n{}", numbered.replace(' ', ", ")),
+        ),
+        (
+            plc(read_off),
+            format!("OFF\n{N} {N} 0\n{}{rings}", points.replace("e-1", "D-1")),
+        ),
+        (plc(read_stl), format!("solid a\n{}", stl_bare)),
+        (plc(read_obj), obj_named),
         (table("node"), format!("{N} 3 0 1\n{numbered}")),
         (table("ele"), format!("{N} 4 1\n{tets}\n# {N}\n")),
         (table("face"), format!("{N}, 1\n\n{faces}")),
@@ -118,10 +172,10 @@ fn pool(threads: usize) -> rayon::ThreadPool {
     pool.build().expect("a pool")
 }
 
-static POOLS: LazyLock<[rayon::ThreadPool; 2]> = LazyLock::new(|| [1, 3].map(pool));
+static POOLS: LazyLock<[rayon::ThreadPool; 3]> = LazyLock::new(|| [1, 2, 5].map(pool));
 
-/// What is read, or the error, by one thread, and by three that read pieces of some size.
-fn read_twice(read: &Read, bytes: &[u8], size: usize) -> [Result<String, String>; 2] {
+/// What is read, or the error, by one thread, and by two and five that read pieces of some size.
+fn read_by_all(read: &Read, bytes: &[u8], size: usize) -> [Result<String, String>; 3] {
     POOLS.each_ref().map(|pool| {
         pool.install(|| {
             let before = SIZE.replace(size);
@@ -136,8 +190,11 @@ fn read_twice(read: &Read, bytes: &[u8], size: usize) -> [Result<String, String>
 fn whole_files_are_read_alike() {
     for (read, file) in FILES.iter() {
         for size in 1..300 {
-            let [alone, together] = read_twice(read, file.as_bytes(), size);
-            assert_eq!(alone, together, "{size} {file}");
+            let [alone, two, five] = read_by_all(read, file.as_bytes(), size);
+            assert!(
+                alone == two && two == five,
+                "{size} {file} {alone:?} {two:?} {five:?}"
+            );
             assert!(alone.is_ok(), "{alone:?} {file}");
         }
     }
@@ -166,6 +223,19 @@ fn edit() -> impl Strategy<Value = (usize, usize, String)> {
         "f 1 2 99\n",
         "v 1 2 3\n",
         "Triangles 2\n",
+        ", ",
+        ",",
+        "1.5D+00 ",
+        "// c\n",
+        " ! c\n",
+        "{ c }",
+        "end solid\n",
+        "end facet\n",
+        "endloop\n",
+        "o a\n",
+        "usemtl b\n",
+        "Unknown 1\n",
+        "\0",
         "0",
         "61 0 0 0\n",
     ]);
@@ -192,7 +262,8 @@ proptest! {
         if let Some(cut) = cut {
             bytes.truncate(cut % (bytes.len() + 1));
         }
-        let [alone, together] = read_twice(read, &bytes, size);
-        prop_assert_eq!(alone, together);
+        let [alone, two, five] = read_by_all(read, &bytes, size);
+        prop_assert_eq!(&alone, &two);
+        prop_assert_eq!(alone, five);
     }
 }

@@ -1,6 +1,7 @@
 //! Numbers of a binary file, with offsets. Nothing is allocated by a count that a file announces.
 
-use super::error::{FormatError, Place, Reason};
+use super::error::{FilePosition, FormatError, Reason};
+use crate::exchange::{Note, NoteCode};
 
 /// A reader of the numbers of a binary file.
 #[derive(Clone)]
@@ -11,6 +12,8 @@ pub(super) struct Bytes<'a> {
     /// The offset of the last number.
     last: usize,
     big_endian: bool,
+    /// How many polygons ended with their first corner, and the offset of the first.
+    closed_rings: (usize, usize),
 }
 
 impl<'a> Bytes<'a> {
@@ -21,6 +24,7 @@ impl<'a> Bytes<'a> {
             at,
             last: at,
             big_endian,
+            closed_rings: (0, 0),
         }
     }
 
@@ -82,6 +86,32 @@ impl<'a> Bytes<'a> {
         }
     }
 
+    /// Remembers a polygon that ended with its first corner, at the last number.
+    pub fn forgive_closed_ring(&mut self) {
+        let (count, first) = &mut self.closed_rings;
+        if *count == 0 {
+            *first = self.last;
+        }
+        *count += 1;
+    }
+
+    /// Notes on what was forgiven.
+    pub fn notes(&self) -> Vec<Note> {
+        let (count, first) = self.closed_rings;
+        if count == 0 {
+            return Vec::new();
+        }
+        let text = format!(
+            "{count} polygons end with their first corner and are read without it (the first of them at byte {first})"
+        );
+        vec![Note::new(NoteCode::ClosedRing, count, text)]
+    }
+
+    /// The offset of what comes next.
+    pub fn offset(&self) -> usize {
+        self.at
+    }
+
     /// The bytes that are left.
     pub fn rest(&self) -> &'a [u8] {
         &self.all[self.at..]
@@ -100,7 +130,7 @@ impl<'a> Bytes<'a> {
     /// An error at the last number.
     pub fn error(&self, reason: Reason) -> FormatError {
         FormatError::Malformed {
-            place: Place::Byte(self.last),
+            at: FilePosition::Byte(self.last),
             reason,
         }
     }

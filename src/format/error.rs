@@ -19,11 +19,14 @@ pub enum FormatError {
         "unknown file extension {0:?}: expected .poly, .smesh, .node, .off, .stl, .ply, .obj or .mesh"
     )]
     UnknownExtension(String),
+    /// The list of vertices is empty, which refers to a `.node` file beside the file; but there is only one file.
+    #[error("the vertices are in a .node file, which can only be found beside a file with a name")]
+    NodesElsewhere,
     /// The file itself is wrong.
-    #[error("{place}: {reason}")]
+    #[error("{at}: {reason}")]
     Malformed {
         /// Where.
-        place: Place,
+        at: FilePosition,
         /// Why.
         reason: Reason,
     },
@@ -43,18 +46,18 @@ pub enum FormatError {
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum FilePosition {
     /// A line of a text file, counted from 1.
     Line(usize),
     /// An offset in a binary file, counted from 0.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePosition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Line(n) => write!(f, "line {n}"),
-            Place::Byte(n) => write!(f, "byte {n}"),
+            FilePosition::Line(n) => write!(f, "line {n}"),
+            FilePosition::Byte(n) => write!(f, "byte {n}"),
         }
     }
 }
@@ -93,17 +96,9 @@ pub enum Reason {
     /// More vertices than ids.
     #[error("{0} vertices are too many")]
     TooManyVertices(u64),
-    /// Vertices are counted from 0 or 1.
-    #[error("the first vertex has the number {0}, which is neither 0 nor 1")]
-    FirstIndex(i64),
-    /// Vertices are not numbered one after the other.
-    #[error("vertex {found} stands where vertex {expected} should be")]
-    VertexNumber {
-        /// The number in the file.
-        found: i64,
-        /// The number that should be there.
-        expected: i64,
-    },
+    /// Two vertices have one number.
+    #[error("there are two vertices with the number {0}")]
+    NumberTwice(i64),
     /// A corner that is no vertex.
     #[error("there is no vertex {index}: vertices are numbered from {first} to {last}")]
     IndexOutOfRange {
@@ -129,6 +124,14 @@ pub enum Reason {
     /// Something follows where the line or the file should end: some count is too small.
     #[error("{0:?} is more than was announced")]
     Trailing(String),
+    /// What follows the end of a file may be a part of it that its header does not count.
+    #[error("{bytes} bytes follow the last {what}; is its number wrong?")]
+    TrailingBytes {
+        /// How many bytes.
+        bytes: usize,
+        /// What is counted.
+        what: &'static str,
+    },
     /// Something that the format allows, or that programs write, but that no reader here understands.
     #[error("{0} not supported")]
     Unsupported(&'static str),

@@ -1,16 +1,20 @@
 //! Medit's ASCII files, `.mesh` (Frey, *MEDIT: An interactive mesh visualization software*, INRIA RT-0253, 2001).
 //!
-//! Read are `Vertices`, `Triangles`, `Quadrilaterals` and `Edges`; the references of the last three become markers.
-//! What says nothing about the shape (corners, ridges, normals, …) is skipped by its number of words, each of which
-//! must be a number. The tetrahedra and other solids of a volume mesh are skipped, too, if its surface is in the file;
-//! else the file is refused. Words are separated by any blanks; vertices count from 1. The word `End` must be there, so
-//! that a file that was cut is noticed. The binary variant, `.meshb`, is refused.
+//! Read are `Vertices`, `Triangles`, `Quadrilaterals` and `Edges`; their references become markers. What says nothing
+//! about the shape (corners, ridges, normals, …) is skipped by its number of words, each of which must be a number.
+//! Words are separated by any blanks; vertices count from 1. The binary variant, `.meshb`, is refused.
+//!
+//! Forgiven: a version of 0 or above 4; a missing `End`, and what follows it; sections with unknown keywords, such as
+//! bamg's, which are skipped up to the next word that begins with a letter and is not in quotation marks; tetrahedra
+//! and other solids, if their surface is in the file. An error are a section that is shorter or longer than its
+//! number says, vertices without `Dimension 3` before them, elements before the vertices, and a file whose facets are
+//! all in sections that are not read.
 
 use super::ahead::{Rows, read_ahead};
-use super::error::{FormatError, Place, Reason};
-use super::poly::{marker_of, vertex};
-use super::text::Text;
-use crate::exchange::{Facet, Note, Plc, Segment};
+use super::error::{FilePosition, FormatError, Reason};
+use super::faces;
+use super::text::{Syntax, Text};
+use crate::exchange::{Facet, Note, NoteCode, Plc, Segment};
 use crate::mesh::VertexId;
 
 /// What is skipped: the numbers per element.
@@ -53,26 +57,29 @@ const SOLIDS: [(&str, u64); 6] = [
 ];
 
 /// Reads a Medit file.
+///
+/// # Errors
+/// If it is malformed, binary, or a volume mesh without its surface.
 pub fn read_medit(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
     if bytes.starts_with(b"\x01\0\0\0") || bytes.starts_with(b"\0\0\0\x01") {
         return Err(FormatError::Malformed {
-            place: Place::Byte(0),
+            at: FilePosition::Byte(0),
             reason: Reason::Unsupported("binary Medit files (.meshb) are"),
         });
     }
     let mut reader = Reader {
-        text: Text::new(bytes, true),
+        text: Text::new(bytes, Syntax::Hash),
         plc: Plc {
             first_index: 1,
             ..Plc::default()
         },
         dimension: false,
         solids: false,
+        unknown_faces: false,
     };
     reader.head()?;
     while reader.section()? {}
-    reader.text.end_file()?;
-    Ok((reader.finish()?, Vec::new()))
+    reader.finish()
 }
 
 struct Reader<'a> {
@@ -81,6 +88,8 @@ struct Reader<'a> {
     /// Whether it was given.
     dimension: bool,
     solids: bool,
+    /// Whether a section that was skipped may hold faces.
+    unknown_faces: bool,
 }
 
 impl Reader<'_> {
@@ -91,22 +100,33 @@ impl Reader<'_> {
             return Err(self.text.bad(token, HEAD));
         }
         let token = self.text.anywhere("the version")?;
-        if !(1..=4).contains(&self.text.integer(token)?) {
-            return Err(self.text.bad(token, "a version from 1 to 4"));
+        let version = self.text.count(token, "the version")?;
+        if !(1..=4).contains(&version) {
+            let code = NoteCode::FormatVersion;
+            self.text.forgive_named(code, version.to_string());
         }
         Ok(())
     }
 
     /// Reads a section; false at the end.
     fn section(&mut self) -> Result<bool, FormatError> {
-        let token = self.text.anywhere("End")?;
+        if !self.text.has_word() && !self.text.advance() {
+            self.text.forgive(NoteCode::Keywords);
+            return Ok(false);
+        }
+        let token = self.text.here("End")?;
         let keyword = token.to_ascii_lowercase();
         let skipped = |list: &[(&str, u64)]| {
             let same = |&&(name, _): &&(&str, u64)| name.as_bytes() == keyword;
             list.iter().find(same).map(|&(_, numbers)| numbers)
         };
         match &keyword[..] {
-            b"end" => return Ok(false),
+            b"end" => {
+                if self.text.has_word() || self.text.advance() {
+                    self.text.forgive(NoteCode::TrailingData);
+                }
+                return Ok(false);
+            }
             b"dimension" => self.dimension()?,
             b"vertices" => self.vertices()?,
             b"triangles" => self.facets::<3>()?,
@@ -116,9 +136,14 @@ impl Reader<'_> {
                 if let Some(numbers) = skipped(&SKIPPED) {
                     self.skip(numbers)?;
                 } else if let Some(numbers) = skipped(&SOLIDS) {
-                    self.solids |= self.skip(numbers)?;
+                    let line = self.text.number_of_line();
+                    if self.skip(numbers)? {
+                        self.solids = true;
+                        let name = String::from_utf8_lossy(token).into_owned();
+                        self.text.forgive_at(NoteCode::VolumeElements, line, name);
+                    }
                 } else {
-                    return Err(self.text.bad(token, "a known keyword of a Medit file"));
+                    self.skip_unknown(token)?;
                 }
             }
         }
@@ -143,24 +168,26 @@ impl Reader<'_> {
         }
         let token = self.text.anywhere("the number of vertices")?;
         let count = self.text.vertex_count(token)?;
-        let vertices = &mut self.plc.vertices;
-        read_ahead(&mut self.text, count, vertices, vertex_and_reference);
-        while Rows::len(vertices) < count {
-            vertex_and_reference(&mut self.text, vertices)?;
+        let mut vertices = Vertices::default();
+        read_ahead(&mut self.text, count, &mut vertices, vertex_and_reference);
+        while vertices.len() < count {
+            vertex_and_reference(&mut self.text, &mut vertices)?;
+        }
+        self.plc.vertices = vertices.points;
+        if vertices.references.iter().any(|&reference| reference != 0) {
+            self.plc.vertex_markers = vertices.references;
         }
         Ok(())
     }
 
     fn facets<const N: usize>(&mut self) -> Result<(), FormatError> {
         let count = self.count("the number of faces")?;
-        let vertices = self.plc.vertices.len();
+        let vertices = &self.plc.vertices;
         let read = |text: &mut Text, facets: &mut Vec<Facet>| {
-            let (polygon, marker) = element::<N>(text, vertices)?;
-            facets.push(Facet {
-                polygons: vec![polygon.to_vec()],
-                marker,
-                ..Facet::default()
-            });
+            let (polygon, marker) = element::<N>(text, vertices.len())?;
+            let mut polygon = polygon.to_vec();
+            faces::open_ring_noted(text, &mut polygon, vertices);
+            facets.push(faces::facet(polygon, marker));
             Ok(())
         };
         // There may be facets of an earlier section.
@@ -208,27 +235,79 @@ impl Reader<'_> {
         Ok(count > 0)
     }
 
-    fn finish(self) -> Result<Plc, FormatError> {
-        if self.plc.vertices.is_empty() {
-            return Err(self.text.error(Reason::NoVertices));
+    /// Skips a section with an unknown keyword, whose words are numbers or in quotation marks.
+    fn skip_unknown(&mut self, token: &[u8]) -> Result<(), FormatError> {
+        if !token[0].is_ascii_alphabetic() {
+            return Err(self.text.bad(token, "a known keyword of a Medit file"));
         }
-        if self.solids && self.plc.facets.is_empty() {
-            let reason = Reason::Unsupported("volume meshes without their surface are");
-            return Err(self.text.error(reason));
+        let name: String = String::from_utf8_lossy(token).chars().take(40).collect();
+        let of_faces = ["tria", "quad", "poly", "face"];
+        let head = name.to_ascii_lowercase();
+        self.unknown_faces |= of_faces.iter().any(|word| head.starts_with(word));
+        self.text.forgive_named(NoteCode::UnknownSection, name);
+        while self.text.has_word() || self.text.advance() {
+            let line = self.text.line();
+            if line[0] == b'"' {
+                let end = line[1..].iter().position(|&b| b == b'"');
+                self.text.skip_in_line(end.map_or(line.len(), |i| i + 2));
+                continue;
+            }
+            let mark = self.text.mark();
+            let token = self.text.here("a word")?;
+            if token[0].is_ascii_alphabetic() && self.text.number(token).is_err() {
+                self.text.return_to(mark);
+                break;
+            }
         }
-        Ok(self.plc)
+        Ok(())
+    }
+
+    fn finish(self) -> Result<(Plc, Vec<Note>), FormatError> {
+        let missing = match self {
+            _ if self.plc.vertices.is_empty() => Reason::NoVertices,
+            _ if !self.plc.facets.is_empty() => return Ok((self.plc, self.text.into_notes())),
+            _ if self.solids => Reason::Unsupported("volume meshes without their surface are"),
+            _ if self.unknown_faces => {
+                Reason::Unsupported("faces other than Triangles and Quadrilaterals are")
+            }
+            _ => return Ok((self.plc, self.text.into_notes())),
+        };
+        Err(self.text.error(missing))
     }
 }
 
-fn vertex_and_reference(text: &mut Text, vertices: &mut Vec<[f64; 3]>) -> Result<(), FormatError> {
+/// Vertices and their references.
+#[derive(Default)]
+struct Vertices {
+    points: Vec<[f64; 3]>,
+    references: Vec<i64>,
+}
+
+impl Rows for Vertices {
+    fn piece(&self) -> Vertices {
+        Vertices::default()
+    }
+
+    fn len(&self) -> u64 {
+        self.points.len() as u64
+    }
+
+    fn append(&mut self, next: Vertices) -> bool {
+        self.points.extend(next.points);
+        self.references.extend(next.references);
+        true
+    }
+}
+
+fn vertex_and_reference(text: &mut Text, vertices: &mut Vertices) -> Result<(), FormatError> {
     let mut point = [0.0; 3];
     for x in &mut point {
         let token = text.anywhere("a coordinate")?;
         *x = text.real(token)?;
     }
     let token = text.anywhere("the reference of a vertex")?;
-    text.integer(token)?;
-    vertices.push(point);
+    vertices.references.push(text.integer(token)?);
+    vertices.points.push(point);
     Ok(())
 }
 
@@ -240,8 +319,8 @@ fn element<const N: usize>(
     let mut vertices = [VertexId(0); N];
     for v in &mut vertices {
         let token = text.anywhere("a vertex")?;
-        *v = vertex(text, token, 1, count)?;
+        *v = faces::vertex(text, token, 1, count)?;
     }
     let token = text.anywhere("a reference")?;
-    Ok((vertices, marker_of(text, token)?))
+    Ok((vertices, text.integer(token)?))
 }

@@ -7,7 +7,7 @@
 //! announces.
 
 use super::MeshLineError;
-use super::text::Text;
+use super::text::{Syntax, Text};
 use crate::exchange::{ExportedEdge, ExportedFace, ExportedMesh};
 use crate::mesh::VertexId;
 use std::str::FromStr;
@@ -18,7 +18,7 @@ pub(super) type Mistake = (usize, MeshLineError);
 /// Reads a mesh.
 pub(super) fn read(bytes: &[u8]) -> Result<ExportedMesh, Mistake> {
     let mut reader = Reader {
-        text: Text::new(bytes, true),
+        text: Text::new(bytes, Syntax::Hash),
         mesh: ExportedMesh {
             first_index: 1,
             ..ExportedMesh::default()
@@ -151,7 +151,7 @@ impl<'a> Reader<'a> {
         for corner in &mut corners {
             let number: i64 = self.number("a vertex")?;
             // A number that no vertex can have stays one.
-            *corner = VertexId(u32::try_from(number - 1).unwrap_or(u32::MAX));
+            *corner = VertexId(u32::try_from(number.saturating_sub(1)).unwrap_or(u32::MAX));
             let line = self.text.number_of_line();
             self.corners.push(Corner { line, number });
         }

@@ -22,7 +22,10 @@ pub enum MeshFileError {
         path: PathBuf,
     },
     /// The extension names no format of a mesh that can be read.
-    #[error("{}: a mesh is read from .node, .ele, .face or .edge (of the same stem), or .mesh (Medit, ASCII)", .path.display())]
+    #[error(
+        "{}: a mesh is read from .node, .ele, .face or .edge (of the same stem), or .mesh (Medit, ASCII)",
+        .path.display()
+    )]
     ReadExtension {
         /// The path given.
         path: PathBuf,

@@ -2,28 +2,37 @@
 //!
 //! Read are vertices `v x y z` (a weight or a colour after them is checked to be numbers and ignored), faces
 //! `f`, whose corners may be `v`, `v/vt`, `v//vn` or `v/vt/vn` and count from 1, or backwards from the last vertex if
-//! negative, and polylines `l`, which become segments. Points `p` are vertices anyway. Groups, materials, normals,
-//! texture coordinates and whatever words programs have added are skipped; curves and surfaces are refused, since to
-//! skip them would lose geometry. A line that ends with a backslash goes on in the next.
+//! negative, and polylines `l`, which become segments. Points `p` are vertices anyway. Normals, texture coordinates and
+//! whatever words programs have added are skipped; curves and surfaces are refused, since to skip
+//! them would lose geometry. A line that ends with a backslash goes on in the next.
+//!
+//! Faces and lines of different objects `o`, groups `g` or materials `usemtl` have different markers; see
+//! [`super::labels`].
 //!
 //! Why not the crate `tobj` (4.0): its errors have no place, it joins objects and splits vertices by material and
 //! normal, and it does not know continued lines.
 
 use super::ahead::{Rows, read_ahead};
-use super::error::{FormatError, Place, Reason};
-use super::text::Text;
-use crate::exchange::{Facet, Note, Plc, Segment};
+use super::error::{FilePosition, FormatError, Reason};
+use super::faces;
+use super::labels::{Label, Labels};
+use super::text::{Syntax, Text};
+use crate::exchange::{Facet, Note, NoteCode, Plc, Segment};
 use crate::mesh::VertexId;
 
 /// Reads an OBJ file.
+///
+/// # Errors
+/// If it is malformed, or has curves or surfaces.
 pub fn read_obj(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
-    let mut text = Text::new(bytes, true);
+    let mut text = Text::new(bytes, Syntax::Hash);
     let mut objects = Objects::default();
     read_ahead(&mut text, u64::MAX, &mut objects, statement);
     while text.advance() {
         statement(&mut text, &mut objects)?;
     }
-    Ok((finish(&text, objects)?, Vec::new()))
+    let plc = finish(&text, objects)?;
+    Ok((plc, text.into_notes()))
 }
 
 /// What statements come to.
@@ -32,8 +41,9 @@ struct Objects {
     vertices: Vec<[f64; 3]>,
     facets: Vec<Facet>,
     segments: Vec<Segment>,
+    labels: Labels,
     /// The largest index that named a vertex still to come, and its place.
-    ahead: Option<(i64, Place)>,
+    ahead: Option<(i64, FilePosition)>,
     /// Whether there are statements before them, so that vertices cannot be counted backwards.
     is_piece: bool,
     /// Whether the last statement of a piece goes on after it.
@@ -59,6 +69,8 @@ impl Rows for Objects {
         if vertices >= u32::MAX as usize || next.ahead.is_some_and(is_ahead) {
             return false;
         }
+        self.labels
+            .append([self.facets.len(), self.segments.len()], next.labels);
         self.vertices.extend(next.vertices);
         self.facets.extend(next.facets);
         self.segments.extend(next.segments);
@@ -76,21 +88,25 @@ fn finish(text: &Text, objects: Objects) -> Result<Plc, FormatError> {
         return Err(text.error(Reason::NoVertices));
     }
     match objects.ahead {
-        Some((index, place)) if index > last => Err(FormatError::Malformed {
-            place,
+        Some((index, at)) if index > last => Err(FormatError::Malformed {
+            at,
             reason: Reason::IndexOutOfRange {
                 index,
                 first: 1,
                 last,
             },
         }),
-        _ => Ok(Plc {
-            first_index: 1,
-            vertices: objects.vertices,
-            facets: objects.facets,
-            segments: objects.segments,
-            ..Plc::default()
-        }),
+        _ => {
+            let mut plc = Plc {
+                first_index: 1,
+                vertices: objects.vertices,
+                facets: objects.facets,
+                segments: objects.segments,
+                ..Plc::default()
+            };
+            objects.labels.mark(&mut plc);
+            Ok(plc)
+        }
     }
 }
 
@@ -110,18 +126,7 @@ impl<'a> Reader<'_, 'a> {
         };
         match keyword {
             b"v" | b"V" => self.position()?,
-            b"f" | b"F" | b"fo" => {
-                let polygon = self.corners()?;
-                match polygon.len() {
-                    0 => return Err(self.text.error(Reason::EmptyFacet)),
-                    n @ 1..=2 => return Err(self.text.error(Reason::ShortFace(n as i64))),
-                    _ => {}
-                }
-                self.objects.facets.push(Facet {
-                    polygons: vec![polygon],
-                    ..Facet::default()
-                });
-            }
+            b"f" | b"F" | b"fo" => self.face()?,
             b"l" | b"L" => {
                 let line = self.corners()?;
                 if line.len() < 2 {
@@ -136,6 +141,9 @@ impl<'a> Reader<'_, 'a> {
             b"p" | b"P" => {
                 self.corners()?;
             }
+            b"o" | b"O" => self.label(Label::Object),
+            b"g" | b"G" => self.label(Label::Group),
+            b"usemtl" => self.label(Label::Material),
             _ if CURVES.contains(&keyword) => {
                 return Err(self
                     .text
@@ -174,6 +182,16 @@ impl<'a> Reader<'_, 'a> {
         }
     }
 
+    /// The words that are left are the name of what follows.
+    fn label(&mut self, kind: Label) {
+        let mut name = Vec::new();
+        while let Some(word) = self.word() {
+            name.push(String::from_utf8_lossy(word));
+        }
+        let at = [self.objects.facets.len(), self.objects.segments.len()];
+        self.objects.labels.begin(at, kind, &name.join(" "));
+    }
+
     fn position(&mut self) -> Result<(), FormatError> {
         let mut point = [0.0; 3];
         for x in &mut point {
@@ -189,6 +207,19 @@ impl<'a> Reader<'_, 'a> {
             return Err(self.text.error(Reason::TooManyVertices(count)));
         }
         self.objects.vertices.push(point);
+        Ok(())
+    }
+
+    fn face(&mut self) -> Result<(), FormatError> {
+        let mut polygon = self.corners()?;
+        if let Some(reason) = faces::too_short(polygon.len() as u64) {
+            return Err(self.text.error(reason));
+        }
+        // By numbers alone: in a piece of the file coordinates are not known.
+        if faces::open_ring(&mut polygon, &[]) {
+            self.text.forgive(NoteCode::ClosedRing);
+        }
+        self.objects.facets.push(faces::facet(polygon, 0));
         Ok(())
     }
 
@@ -224,7 +255,7 @@ impl<'a> Reader<'_, 'a> {
             }));
         }
         if number > last && self.objects.ahead.is_none_or(|(far, _)| number > far) {
-            self.objects.ahead = Some((number, text.place()));
+            self.objects.ahead = Some((number, text.position()));
         }
         Ok(VertexId::new((number - 1) as usize))
     }

@@ -8,18 +8,23 @@
 //! in both.)
 
 use super::bytes::Bytes;
-use super::error::{FormatError, Place, Reason};
-use crate::exchange::{Facet, Plc};
+use super::error::{FilePosition, FormatError, Reason};
+use super::faces;
+use crate::exchange::{Note, Plc};
 use crate::mesh::VertexId;
 
 /// Reads what follows the line of the header, which ends at offset `at`. `extra` bytes follow the coordinates of each
 /// vertex.
-pub(super) fn read_binary(bytes: &[u8], at: usize, extra: u64) -> Result<Plc, FormatError> {
+pub(super) fn read_binary(
+    bytes: &[u8],
+    at: usize,
+    extra: u64,
+) -> Result<(Plc, Vec<Note>), FormatError> {
     let layouts = [(true, true), (true, false), (false, true), (false, false)];
     let mut best: Option<FormatError> = None;
     for (big_endian, face_colours) in layouts {
         match read(Bytes::new(bytes, at, big_endian), face_colours, extra) {
-            Ok(plc) => return Ok(plc),
+            Ok(read) => return Ok(read),
             // The one that makes sense of most of the file.
             Err(error) if best.as_ref().is_none_or(|b| reach(&error) > reach(b)) => {
                 best = Some(error);
@@ -34,14 +39,14 @@ pub(super) fn read_binary(bytes: &[u8], at: usize, extra: u64) -> Result<Plc, Fo
 fn reach(error: &FormatError) -> usize {
     match error {
         FormatError::Malformed {
-            place: Place::Byte(at),
+            at: FilePosition::Byte(at),
             ..
         } => *at,
         _ => 0,
     }
 }
 
-fn read(mut bytes: Bytes, face_colours: bool, extra: u64) -> Result<Plc, FormatError> {
+fn read(mut bytes: Bytes, face_colours: bool, extra: u64) -> Result<(Plc, Vec<Note>), FormatError> {
     let vertices = count(&mut bytes, "the number of vertices")?;
     let faces = count(&mut bytes, "the number of faces")?;
     count(&mut bytes, "the number of edges")?;
@@ -66,26 +71,24 @@ fn read(mut bytes: Bytes, face_colours: bool, extra: u64) -> Result<Plc, FormatE
         plc.vertices.push(point);
     }
     for _ in 0..faces {
-        let polygon = corners(&mut bytes, vertices)?;
-        plc.facets.push(Facet {
-            polygons: vec![polygon],
-            ..Facet::default()
-        });
+        let mut polygon = corners(&mut bytes, vertices)?;
+        if faces::open_ring(&mut polygon, &plc.vertices) {
+            bytes.forgive_closed_ring();
+        }
+        plc.facets.push(faces::facet(polygon, 0));
         if face_colours {
             let colours = count(&mut bytes, "the number of colour components")?;
             bytes.skip(4 * colours, "a colour component")?;
         }
     }
     bytes.end()?;
-    Ok(plc)
+    Ok((plc, bytes.notes()))
 }
 
 fn corners(bytes: &mut Bytes, vertices: u64) -> Result<Vec<VertexId>, FormatError> {
     let count = count(bytes, "the number of corners")?;
-    match count {
-        0 => return Err(bytes.error(Reason::EmptyFacet)),
-        1 | 2 => return Err(bytes.error(Reason::ShortFace(count as i64))),
-        _ => {}
+    if let Some(reason) = faces::too_short(count) {
+        return Err(bytes.error(reason));
     }
     let mut polygon = Vec::new();
     for _ in 0..count {

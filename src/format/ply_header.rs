@@ -19,6 +19,8 @@ pub(super) enum Type {
     U16,
     I32,
     U32,
+    I64,
+    U64,
     F32,
     F64,
 }
@@ -29,7 +31,7 @@ impl Type {
             Type::I8 | Type::U8 => 1,
             Type::I16 | Type::U16 => 2,
             Type::I32 | Type::U32 | Type::F32 => 4,
-            Type::F64 => 8,
+            Type::I64 | Type::U64 | Type::F64 => 8,
         }
     }
 
@@ -38,13 +40,15 @@ impl Type {
     }
 
     fn of(token: &[u8]) -> Option<Type> {
-        Some(match token {
+        Some(match &token.to_ascii_lowercase()[..] {
             b"char" | b"int8" => Type::I8,
             b"uchar" | b"uint8" => Type::U8,
             b"short" | b"int16" => Type::I16,
             b"ushort" | b"uint16" => Type::U16,
             b"int" | b"int32" => Type::I32,
             b"uint" | b"uint32" => Type::U32,
+            b"int64" | b"long" => Type::I64,
+            b"uint64" | b"ulong" => Type::U64,
             b"float" | b"float32" => Type::F32,
             b"double" | b"float64" => Type::F64,
             _ => return None,
@@ -59,8 +63,12 @@ pub(super) enum Property {
     Coordinate(usize, Type),
     /// End 0 or 1 of an edge.
     End(usize, Type),
-    /// The corners of a face: the types of their number and of each.
+    /// The corners of a face or strip: the types of their number and of each.
     Corners(Type, Type),
+    /// What part of a model a face belongs to: its marker.
+    Label(Type),
+    /// Red, green, blue or alpha of a face.
+    Colour(usize, Type),
     /// A number of no use to us.
     Other(Type),
     /// A list of no use to us.
@@ -71,6 +79,8 @@ pub(super) enum Property {
 pub(super) enum Role {
     Vertex,
     Face,
+    /// Strips of triangles.
+    Strips,
     Edge,
     Other,
 }
@@ -81,25 +91,49 @@ pub(super) struct Element {
     pub properties: Vec<Property>,
 }
 
+impl Element {
+    /// The fewest bytes that one takes in a binary file.
+    pub fn least_size(&self) -> u64 {
+        let size = |property: &Property| match *property {
+            Property::Corners(counter, corner) => counter.size() + 3 * corner.size(),
+            Property::OtherList(counter, _) => counter.size(),
+            Property::Coordinate(_, kind)
+            | Property::End(_, kind)
+            | Property::Colour(_, kind)
+            | Property::Label(kind)
+            | Property::Other(kind) => kind.size(),
+        };
+        self.properties.iter().map(size).sum()
+    }
+
+    /// Whether it has a property.
+    pub fn has(&self, is: fn(&Property) -> bool) -> bool {
+        self.properties.iter().any(is)
+    }
+}
+
 pub(super) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
     pub vertices: u64,
 }
 
-/// Reads up to `end_header`.
+/// Reads up to `end_header`. Each statement may end with a comment in braces, and another may follow on the same line.
 pub(super) fn header(text: &mut Text) -> Result<Header, FormatError> {
     text.begin("the header ply")?;
     match text.token() {
-        Some(b"ply") => text.end_line()?,
+        Some(word) if word.eq_ignore_ascii_case(b"ply") => end_statement(text)?,
         token => return Err(text.bad(token.unwrap_or_default(), "ply")),
     }
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
     let mut vertices = None;
     loop {
-        text.begin("end_header")?;
-        match text.here("a word")? {
+        if !text.has_word() {
+            text.begin("end_header")?;
+        }
+        let token = text.here("a word")?;
+        match &token.to_ascii_lowercase()[..] {
             b"comment" | b"obj_info" => text.skip_line(),
             b"format" if encoding.is_some() => return Err(text.error(Reason::Twice("format is"))),
             b"format" => encoding = Some(format(text)?),
@@ -121,10 +155,13 @@ pub(super) fn header(text: &mut Text) -> Result<Header, FormatError> {
                 element.properties.push(property);
             }
             b"end_header" => {
-                text.end_line()?;
+                // The numbers may begin on the same line, if they are words.
+                if encoding != Some(Encoding::Ascii) {
+                    text.end_line()?;
+                }
                 break;
             }
-            token => {
+            _ => {
                 let expected = "format, element, property, comment, obj_info or end_header";
                 return Err(text.bad(token, expected));
             }
@@ -138,17 +175,37 @@ pub(super) fn header(text: &mut Text) -> Result<Header, FormatError> {
     })
 }
 
+/// The line ends, or another statement begins.
+fn end_statement(text: &mut Text) -> Result<(), FormatError> {
+    const WORDS: [&str; 6] = [
+        "format",
+        "comment",
+        "obj_info",
+        "element",
+        "property",
+        "end_header",
+    ];
+    let mark = text.mark();
+    let token = text.token().unwrap_or_default();
+    let follows = WORDS
+        .iter()
+        .any(|word| token.eq_ignore_ascii_case(word.as_bytes()));
+    text.return_to(mark);
+    if follows { Ok(()) } else { text.end_line() }
+}
+
 fn format(text: &mut Text) -> Result<Encoding, FormatError> {
-    let encoding = match text.here("the encoding")? {
+    let token = text.here("the encoding")?;
+    let encoding = match &token.to_ascii_lowercase()[..] {
         b"ascii" => Encoding::Ascii,
         b"binary_little_endian" => Encoding::LittleEndian,
         b"binary_big_endian" => Encoding::BigEndian,
-        token => {
+        _ => {
             return Err(text.bad(token, "ascii, binary_little_endian or binary_big_endian"));
         }
     };
     match text.here("the version 1.0")? {
-        b"1.0" => text.end_line()?,
+        b"1.0" => end_statement(text)?,
         token => return Err(text.bad(token, "the version 1.0")),
     }
     Ok(encoding)
@@ -157,19 +214,16 @@ fn format(text: &mut Text) -> Result<Encoding, FormatError> {
 fn element(text: &mut Text) -> Result<Element, FormatError> {
     let name = text.here("the name of an element")?;
     let token = text.here("the number of elements")?;
-    let (role, count) = match name {
+    let (role, count) = match &name.to_ascii_lowercase()[..] {
         b"vertex" => (Role::Vertex, text.vertex_count(token)?),
         b"face" => (Role::Face, text.count(token, "the number of faces")?),
         b"edge" => (Role::Edge, text.count(token, "the number of edges")?),
+        b"tristrips" => (Role::Strips, text.count(token, "the number of strips")?),
         _ => (Role::Other, text.count(token, "the number of elements")?),
     };
-    text.end_line()?;
+    end_statement(text)?;
     if role == Role::Vertex && count == 0 {
         return Err(text.error(Reason::NoVertices));
-    }
-    // To skip it would lose faces.
-    if name == b"tristrips" && count > 0 {
-        return Err(text.error(Reason::Unsupported("triangle strips are")));
     }
     Ok(Element {
         role,
@@ -178,9 +232,32 @@ fn element(text: &mut Text) -> Result<Element, FormatError> {
     })
 }
 
+/// Whole numbers of faces that say which part of a model they belong to.
+const LABELS: [&[u8]; 16] = [
+    b"label",
+    b"labels",
+    b"marker",
+    b"markers",
+    b"region",
+    b"region_id",
+    b"material",
+    b"material_id",
+    b"material_index",
+    b"group",
+    b"group_id",
+    b"object",
+    b"object_id",
+    b"segment_id",
+    b"category_id",
+    b"part_id",
+];
+
+/// The components of a colour.
+const COLOURS: [&[u8]; 4] = [b"red", b"green", b"blue", b"alpha"];
+
 fn property(text: &mut Text, role: Role) -> Result<Property, FormatError> {
     let mut token = text.here("the type of a property")?;
-    let list = token == b"list";
+    let list = token.eq_ignore_ascii_case(b"list");
     let mut counter = None;
     if list {
         token = text.here("the type of the length of a list")?;
@@ -188,10 +265,12 @@ fn property(text: &mut Text, role: Role) -> Result<Property, FormatError> {
         token = text.here("the type of the members of a list")?;
     }
     let kind = some_type(text, token)?;
-    let name = text.here("the name of a property")?;
-    text.end_line()?;
-    Ok(match (role, name, counter) {
-        (Role::Face, b"vertex_indices" | b"vertex_index", Some(counter)) => {
+    let name = text.here("the name of a property")?.to_ascii_lowercase();
+    end_statement(text)?;
+    let colour = COLOURS.iter().position(|colour| *colour == name);
+    let is_label = kind.is_whole() && LABELS.contains(&&name[..]);
+    Ok(match (role, &name[..], counter) {
+        (Role::Face | Role::Strips, b"vertex_indices" | b"vertex_index", Some(counter)) => {
             Property::Corners(counter, whole_type(text, token)?)
         }
         (_, _, Some(counter)) => Property::OtherList(counter, kind),
@@ -200,6 +279,11 @@ fn property(text: &mut Text, role: Role) -> Result<Property, FormatError> {
         (Role::Vertex, b"z", _) => Property::Coordinate(2, kind),
         (Role::Edge, b"vertex1", _) => Property::End(0, whole_type(text, token)?),
         (Role::Edge, b"vertex2", _) => Property::End(1, whole_type(text, token)?),
+        (Role::Face, ..) if is_label => Property::Label(kind),
+        (Role::Face, ..) if kind.is_whole() && kind.size() <= 2 => match colour {
+            Some(component) => Property::Colour(component, kind),
+            None => Property::Other(kind),
+        },
         _ => Property::Other(kind),
     })
 }
@@ -234,7 +318,9 @@ fn check_last(text: &Text, elements: &[Element]) -> Result<(), FormatError> {
         Role::Vertex if has(|p| matches!(p, Property::Coordinate(..))) != 3 => {
             "one of the properties x, y and z of vertices is"
         }
-        Role::Face if last.count > 0 && has(|p| matches!(p, Property::Corners(..))) != 1 => {
+        Role::Face | Role::Strips
+            if last.count > 0 && has(|p| matches!(p, Property::Corners(..))) != 1 =>
+        {
             "the list vertex_indices of faces is"
         }
         Role::Edge if last.count > 0 && has(|p| matches!(p, Property::End(..))) != 2 => {

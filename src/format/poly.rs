@@ -13,21 +13,29 @@
 //!
 //! As in TetGen, a list of no vertices refers to the `.node` file, corners may go on in the next line, the facet's
 //! number of holes may be missing, and so may the list of regions, or those of holes and regions, at the end of the
-//! file. Unlike TetGen we check the numbers of the vertices and refuse whatever is left over in a line or at the end,
-//! because it means that a count is wrong.
+//! file. The numbers of facets, holes and regions say nothing. Corners are the numbers of vertices as the file has
+//! them, from any number on and in any order; if they do not follow one another there is a note, because TetGen then
+//! counts the lines instead.
+//!
+//! Forgiven, too: attributes and markers of vertices that are missing or not announced, facet markers that are not
+//! announced, and whatever follows the last region, such as a fifth part, if it cannot be one more region. Anything
+//! else that is left over in a line is an error, because then a count is wrong; so are two vertices of one number.
 
-use super::ahead::{Rows, read_ahead, read_aligned};
+use super::ahead::{Rows, read_aligned};
 use super::error::{FormatError, Reason};
-use super::text::Text;
-use super::vertices::Vertices;
-use crate::exchange::{Facet, Note, Plc, Region, Segment};
+use super::faces::open_ring_noted;
+use super::nodes::{self, vertex_list};
+use super::text::{Syntax, Text};
+use super::vertices::Numbering;
+use crate::exchange::{Facet, Note, NoteCode, Plc, Region, Segment};
 use crate::mesh::VertexId;
 
-/// A list of vertices: the number of the first, and the coordinates.
-type VertexList = (u32, Vec<[f64; 3]>);
-
-/// The number of the first vertex, and how many there are.
-type Numbers = (u32, usize);
+/// What the corners of facets are.
+#[derive(Clone, Copy)]
+struct Corners<'a> {
+    numbering: &'a Numbering,
+    points: &'a [[f64; 3]],
+}
 
 /// Which of the two facet lists a file has.
 #[derive(Clone, Copy)]
@@ -37,22 +45,28 @@ enum FacetList {
 }
 
 /// Reads a `.node` file: vertices alone.
+///
+/// # Errors
+/// If it is malformed.
 pub fn read_node(bytes: &[u8]) -> Result<(Plc, Vec<Note>), FormatError> {
-    let mut text = Text::new(bytes, true);
-    let (first_index, vertices) = vertex_list(&mut text)?;
-    if vertices.is_empty() {
+    node(bytes).map(|(plc, _, notes)| (plc, notes))
+}
+
+fn node(bytes: &[u8]) -> Result<(Plc, Numbering, Vec<Note>), FormatError> {
+    let mut text = Text::new(bytes, Syntax::Hash);
+    let (vertices, columns) = vertex_list(&mut text)?;
+    if vertices.points.is_empty() {
         return Err(text.error(Reason::NoVertices));
     }
     text.end_file()?;
-    let plc = Plc {
-        first_index,
-        vertices,
-        ..Plc::default()
-    };
-    Ok((plc, Vec::new()))
+    let (plc, numbering) = vertices.into_plc(columns.attributes);
+    Ok((plc, numbering, text.into_notes()))
 }
 
 /// Reads a `.poly` file. `nodes` is asked for the bytes of the `.node` file if the list of vertices is empty.
+///
+/// # Errors
+/// If one of the files is malformed, or `nodes` fails.
 pub fn read_poly(
     bytes: &[u8],
     nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
@@ -61,6 +75,9 @@ pub fn read_poly(
 }
 
 /// Reads a `.smesh` file. `nodes` is asked for the bytes of the `.node` file if the list of vertices is empty.
+///
+/// # Errors
+/// If one of the files is malformed, or `nodes` fails.
 pub fn read_smesh(
     bytes: &[u8],
     nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
@@ -73,76 +90,58 @@ fn read(
     list: FacetList,
     nodes: impl FnOnce() -> Result<Vec<u8>, FormatError>,
 ) -> Result<(Plc, Vec<Note>), FormatError> {
-    let mut text = Text::new(bytes, true);
-    let (first_index, vertices) = vertex_list(&mut text)?;
-    let (mut plc, notes) = if vertices.is_empty() {
-        read_node(&nodes()?).map_err(|e| FormatError::NodeFile(Box::new(e)))?
+    let mut text = Text::new(bytes, Syntax::Hash);
+    let (vertices, columns) = vertex_list(&mut text)?;
+    let (mut plc, numbering, mut notes) = if vertices.points.is_empty() {
+        node(&nodes()?).map_err(|e| FormatError::NodeFile(Box::new(e)))?
     } else {
-        let plc = Plc {
-            first_index,
-            vertices,
-            ..Plc::default()
-        };
-        (plc, Vec::new())
+        let (plc, numbering) = vertices.into_plc(columns.attributes);
+        (plc, numbering, Vec::new())
     };
-    facet_list(&mut text, list, &mut plc)?;
+    for note in &mut notes {
+        note.text = format!("in the .node file of the vertices: {}", note.text);
+    }
+    let corners = Corners {
+        numbering: &numbering,
+        points: &plc.vertices,
+    };
+    let facets = facet_list(&mut text, list, corners)?;
+    plc.facets = facets.facets;
+    plc.segments = facets.segments;
     if text.advance() {
         plc.holes = holes(&mut text)?;
     }
     if text.advance() {
         plc.regions = regions(&mut text)?;
     }
-    text.end_file()?;
+    end(&mut text)?;
+    notes.extend(text.into_notes());
     Ok((plc, notes))
 }
 
-fn vertex_list(text: &mut Text) -> Result<VertexList, FormatError> {
-    text.begin("the number of vertices")?;
-    let token = text.here("the number of vertices")?;
-    let count = text.vertex_count(token)?;
-    if let Some(token) = text.token() {
-        let dimension = text.integer(token)?;
-        if dimension != 3 {
-            return Err(text.error(Reason::Dimension(dimension)));
-        }
-    }
-    for what in ["the number of attributes", "the number of markers"] {
-        if let Some(token) = text.token() {
-            text.count(token, what)?;
-        }
-    }
+/// What follows the last region is ignored, unless it can be a region that the count leaves out.
+fn end(text: &mut Text) -> Result<(), FormatError> {
     text.end_line()?;
-
-    let mut vertices = Vertices::default();
-    read_ahead(text, count, &mut vertices, numbered_vertex);
-    while vertices.len() < count {
-        text.begin("a vertex")?;
-        numbered_vertex(text, &mut vertices)?;
+    if !text.advance() {
+        return Ok(());
     }
-    Ok((vertices.first_index(), vertices.points))
-}
-
-fn numbered_vertex(text: &mut Text, vertices: &mut Vertices) -> Result<(), FormatError> {
-    let token = text.here("the number of a vertex")?;
-    let number = text.integer(token)?;
-    if !vertices.may_have(number) {
-        return Err(text.error(match vertices.expected() {
-            None => Reason::FirstIndex(number),
-            Some(expected) => Reason::VertexNumber {
-                found: number,
-                expected,
-            },
-        }));
-    }
-    vertices.push(number, text.point()?);
-    // Attributes and the marker, which we have no use for.
+    const REGION: usize = 5;
+    let mark = text.mark();
+    let mut numbers = 0;
+    let mut other = false;
     while let Some(token) = text.token() {
-        text.real(token)?;
+        numbers += 1;
+        other |= text.number(token).is_err();
     }
+    text.return_to(mark);
+    if numbers >= REGION && !other {
+        return text.end_line();
+    }
+    text.forgive(NoteCode::TrailingData);
     Ok(())
 }
 
-fn facet_list(text: &mut Text, list: FacetList, plc: &mut Plc) -> Result<(), FormatError> {
+fn facet_list(text: &mut Text, list: FacetList, corners: Corners) -> Result<Facets, FormatError> {
     text.begin("the number of facets")?;
     let token = text.here("the number of facets")?;
     let count = text.count(token, "the number of facets")?;
@@ -151,14 +150,15 @@ fn facet_list(text: &mut Text, list: FacetList, plc: &mut Plc) -> Result<(), For
         None => false,
     };
     text.end_line()?;
-    let vertices = (plc.first_index, plc.vertices.len());
     let mut facets = Facets::default();
     let read = |text: &mut Text, facets: &mut Facets| {
+        let line = text.number_of_line();
         let mut facet = match list {
-            FacetList::Poly => poly_facet(text, vertices)?,
-            FacetList::Smesh => smesh_facet(text, vertices)?,
+            FacetList::Poly => poly_facet(text, corners)?,
+            FacetList::Smesh => smesh_facet(text, corners)?,
         };
-        if !marked {
+        if !marked && facet.marker != 0 {
+            text.forgive_line(NoteCode::ExtraColumns, line);
             facet.marker = 0;
         }
         facets.push(facet);
@@ -170,9 +170,7 @@ fn facet_list(text: &mut Text, list: FacetList, plc: &mut Plc) -> Result<(), For
         text.begin("a facet")?;
         read(text, &mut facets)?;
     }
-    plc.facets = facets.facets;
-    plc.segments = facets.segments;
-    Ok(())
+    Ok(facets)
 }
 
 /// In how many bytes the beginning of a facet is looked for.
@@ -199,7 +197,7 @@ fn first_facet(bytes: &[u8], reads: impl Fn(&mut Text) -> bool) -> usize {
     const LINES: usize = 16;
     const FACETS: usize = 4;
     let bytes = whole_lines(&bytes[..bytes.len().min(window())]);
-    let mut text = Text::new(bytes, true);
+    let mut text = Text::new(bytes, Syntax::Hash);
     for _ in 0..LINES {
         let mut trial = text.clone();
         let begins = (0..FACETS).all(|_| !trial.advance() || reads(&mut trial));
@@ -255,7 +253,7 @@ impl Rows for Facets {
     }
 }
 
-fn poly_facet(text: &mut Text, vertices: Numbers) -> Result<Facet, FormatError> {
+fn poly_facet(text: &mut Text, vertices: Corners) -> Result<Facet, FormatError> {
     let token = text.here("the number of polygons of a facet")?;
     let polygons = text.count(token, "the number of polygons of a facet")?;
     if polygons == 0 {
@@ -285,7 +283,7 @@ fn poly_facet(text: &mut Text, vertices: Numbers) -> Result<Facet, FormatError> 
     Ok(facet)
 }
 
-fn smesh_facet(text: &mut Text, vertices: Numbers) -> Result<Facet, FormatError> {
+fn smesh_facet(text: &mut Text, vertices: Corners) -> Result<Facet, FormatError> {
     let polygons = vec![corners(text, vertices)?];
     let marker = marker(text)?;
     text.end_line()?;
@@ -298,16 +296,12 @@ fn smesh_facet(text: &mut Text, vertices: Numbers) -> Result<Facet, FormatError>
 
 fn marker(text: &mut Text) -> Result<i64, FormatError> {
     match text.token() {
-        Some(token) => marker_of(text, token),
+        Some(token) => nodes::marker(text, token),
         None => Ok(0),
     }
 }
 
-pub(super) fn marker_of(text: &Text, token: &[u8]) -> Result<i64, FormatError> {
-    text.integer(token)
-}
-
-fn corners(text: &mut Text, (first, vertices): Numbers) -> Result<Vec<VertexId>, FormatError> {
+fn corners(text: &mut Text, vertices: Corners) -> Result<Vec<VertexId>, FormatError> {
     let token = text.here("the number of corners")?;
     let count = text.count(token, "the number of corners")?;
     if count == 0 {
@@ -316,26 +310,15 @@ fn corners(text: &mut Text, (first, vertices): Numbers) -> Result<Vec<VertexId>,
     let mut polygon = Vec::new();
     for _ in 0..count {
         let token = text.anywhere("a corner")?;
-        polygon.push(vertex(text, token, first, vertices)?);
+        let index = text.integer(token)?;
+        let vertex = vertices.numbering.vertex(index);
+        polygon.push(vertex.ok_or_else(|| {
+            let (first, last) = vertices.numbering.range();
+            text.error(Reason::IndexOutOfRange { index, first, last })
+        })?);
     }
+    open_ring_noted(text, &mut polygon, vertices.points);
     Ok(polygon)
-}
-
-/// The vertex with the given number in a file whose vertices are numbered from `first`.
-pub(super) fn vertex(
-    text: &Text,
-    token: &[u8],
-    first: u32,
-    count: usize,
-) -> Result<VertexId, FormatError> {
-    let index = text.integer(token)?;
-    let first = i64::from(first);
-    let last = first + count as i64 - 1;
-    if (first..=last).contains(&index) {
-        Ok(VertexId::new((index - first) as usize))
-    } else {
-        Err(text.error(Reason::IndexOutOfRange { index, first, last }))
-    }
 }
 
 fn numbered_point(text: &mut Text) -> Result<[f64; 3], FormatError> {

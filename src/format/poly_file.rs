@@ -18,10 +18,29 @@ pub fn write_poly(path: &Path, plc: &Plc) -> Result<(), MeshFileError> {
 }
 
 fn poly(out: &mut dyn Write, plc: &Plc) -> io::Result<()> {
-    let number = |v: &VertexId| v.0 + plc.first_index;
-    writeln!(out, "{} 3 0 0", plc.vertices.len())?;
-    for (i, &p) in (plc.first_index..).zip(&plc.vertices) {
-        writeln!(out, "{i} {}", point(p))?;
+    let number = |v: &VertexId| match plc.numbers.get(v.index()) {
+        Some(&number) => number,
+        None => i64::from(v.0) + i64::from(plc.first_index),
+    };
+    let (columns, marked) = (plc.attributes.per_vertex, !plc.vertex_markers.is_empty());
+    writeln!(
+        out,
+        "{} 3 {columns} {}",
+        plc.vertices.len(),
+        u8::from(marked)
+    )?;
+    for (i, &p) in plc.vertices.iter().enumerate() {
+        let v = VertexId::new(i);
+        write!(out, "{} {}", number(&v), point(p))?;
+        if columns > 0 {
+            for &value in plc.attributes.of(v) {
+                write!(out, " {}", Shortest(value))?;
+            }
+        }
+        if marked {
+            write!(out, " {}", plc.vertex_markers[i])?;
+        }
+        writeln!(out)?;
     }
     writeln!(out, "{} 1", plc.facets.len() + plc.segments.len())?;
     for facet in &plc.facets {

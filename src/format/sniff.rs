@@ -1,7 +1,9 @@
-//! What a file is by its first bytes, whatever its name: for messages alone.
+//! What a file is by its first bytes, whatever its name: for messages, and for files without a name.
 
-use super::error::{FormatError, Place, Reason};
-use super::text::Text;
+use super::PlcFormat;
+use super::error::{FilePosition, FormatError, Reason};
+use super::stl_binary::announced_size;
+use super::text::{Syntax, Text};
 
 /// Refuses files that no reader here can read but that are well known by their first bytes.
 pub(super) fn refuse_packed(bytes: &[u8]) -> Result<(), FormatError> {
@@ -20,13 +22,13 @@ pub(super) fn refuse_packed(bytes: &[u8]) -> Result<(), FormatError> {
         None => return Ok(()),
     };
     Err(FormatError::Malformed {
-        place: Place::Byte(0),
+        at: FilePosition::Byte(0),
         reason,
     })
 }
 
-/// What a file looks like, if it looks like anything: the extension by which we would read it, or none, and its name.
-pub(super) fn looks_like(bytes: &[u8]) -> Option<(Option<&'static str>, &'static str)> {
+/// What a file looks like, if it looks like anything: the format in which we would read it, or none, and its name.
+pub(super) fn looks_like(bytes: &[u8]) -> Option<(Option<PlcFormat>, &'static str)> {
     let foreign: [(&[u8], &str); 8] = [
         (b"<!doctype html", "a web page"),
         (b"<html", "a web page"),
@@ -50,17 +52,20 @@ pub(super) fn looks_like(bytes: &[u8]) -> Option<(Option<&'static str>, &'static
         return Some((None, name));
     }
     if bytes.starts_with(b"\x01\0\0\0") || bytes.starts_with(b"\0\0\0\x01") {
-        return Some((Some("mesh"), "a binary Medit file"));
+        return Some((Some(PlcFormat::Medit), "a binary Medit file"));
     }
-    let mut text = Text::new(bytes, true);
+    if announced_size(bytes) == Some(bytes.len() as u64) {
+        return Some((Some(PlcFormat::Stl), "a binary STL file"));
+    }
+    let mut text = Text::new(bytes, Syntax::Hash);
     text.advance();
     let word = text.token()?.to_ascii_lowercase();
     Some(match &word[..] {
-        b"ply" => (Some("ply"), "a PLY file"),
-        b"solid" => (Some("stl"), "an STL file"),
-        b"meshversionformatted" => (Some("mesh"), "a Medit file"),
-        b"v" | b"vn" | b"vt" | b"mtllib" | b"o" | b"g" => (Some("obj"), "an OBJ file"),
-        word if word.len() < 9 && word.ends_with(b"off") => (Some("off"), "an OFF file"),
+        b"ply" => (Some(PlcFormat::Ply), "a PLY file"),
+        b"solid" => (Some(PlcFormat::Stl), "an STL file"),
+        b"meshversionformatted" => (Some(PlcFormat::Medit), "a Medit file"),
+        b"v" | b"vn" | b"vt" | b"mtllib" | b"o" | b"g" => (Some(PlcFormat::Obj), "an OBJ file"),
+        word if word.len() < 9 && word.ends_with(b"off") => (Some(PlcFormat::Off), "an OFF file"),
         _ => return None,
     })
 }

@@ -16,7 +16,8 @@
 //! that vertices keep their order. Time and memory are linear in the size of the files, whatever a header says.
 
 use super::ahead::{Rows, read_ahead};
-use super::text::{Text, whole};
+use super::numerals::whole;
+use super::text::{Syntax, Text};
 use super::vertices::Vertices;
 use super::{MeshFileError, MeshLineError, sibling};
 use crate::exchange::{ExactPosition, ExportedEdge, ExportedFace, ExportedMesh};
@@ -99,7 +100,13 @@ fn read_node(source: &Source) -> Result<(u32, Vec<[f64; 3]>), MeshFileError> {
         vertices.push(found, point);
         Ok(())
     })?;
-    Ok((vertices.first_index(), vertices.points))
+    // Only numbers that follow one another were let in.
+    let first = vertices.first_index().ok_or_else(|| MeshFileError::Line {
+        path: source.path.clone(),
+        line: 1,
+        reason: MeshLineError::TooManyVertices(vertices.points.len()),
+    })?;
+    Ok((first, vertices.points))
 }
 
 /// Tetrahedra and their last attributes, if they have any.
@@ -265,7 +272,7 @@ impl Source {
             line,
             reason,
         };
-        let mut text = Text::new(&self.bytes, true);
+        let mut text = Text::new(&self.bytes, Syntax::Hash);
         if !text.advance() {
             return Err(at(1, MeshLineError::NoHeader));
         }

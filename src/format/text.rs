@@ -1,30 +1,92 @@
 //! Words and numbers of a text file, with line numbers.
 //!
-//! Lines end with LF, CRLF or CR; a comment runs from `#` to the end of its line (not in STL); lines without a word are
-//! skipped. Nothing is allocated by a count that a file announces.
+//! Lines end with LF, CRLF or CR; lines without a word are skipped. A comment runs from `#` to the end of its line
+//! (but in STL and PLY). Nothing is allocated by a count that a file announces.
+//!
+//! Forgiven, each with a note that names the lines:
+//! - a comma after a number, or before it, if there is a blank on the other side or if the whole line has commas and
+//!   no blanks between its fields. Any other comma within a word is an error, because it is more likely a decimal one;
+//! - exponents as Fortran writes them, `1.5D+00`;
+//! - comments from `!`, `//` or, in STL and PLY, `#`, where a word would begin;
+//! - NUL and control-Z bytes at the end of the file, as old systems leave them.
 
-use super::error::{FormatError, Place, Reason};
+use super::error::{FilePosition, FormatError, Reason};
+use super::forgiven::Forgiven;
+use super::numerals::{fortran, has_decimal_comma, is_separated_by_commas, shorten, whole};
+use crate::exchange::{Note, NoteCode};
 
 /// A reader of the words of a text file.
 #[derive(Clone)]
 pub(super) struct Text<'a> {
     /// What follows the current line.
     rest: &'a [u8],
+    /// The current line.
+    whole: &'a [u8],
     /// What is left of the current line.
     line: &'a [u8],
     /// The number of the current line, from 1.
     number: usize,
-    comments: bool,
+    /// How many bytes at the end of the file say nothing.
+    padding: usize,
+    syntax: Syntax,
+    forgiven: Forgiven,
+}
+
+/// What is a comment.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Syntax {
+    /// From `#` to the end of the line, wherever it stands.
+    Hash,
+    /// Nothing.
+    Plain,
+    /// What is in braces on one line.
+    Braces,
+}
+
+/// What a byte is where a word begins or ends.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd)]
+enum Class {
+    /// A part of a word.
+    Word,
+    /// A part of a word, but the beginning of a comment if a word would begin.
+    Comment,
+    Comma,
+    Blank,
+}
+
+const CLASSES: [Class; 256] = {
+    let mut classes = [Class::Word; 256];
+    let mut i = 0;
+    while i < 256 {
+        classes[i] = match i as u8 {
+            b'#' | b'!' | b'/' | b'{' => Class::Comment,
+            b',' => Class::Comma,
+            b if b.is_ascii_whitespace() => Class::Blank,
+            _ => Class::Word,
+        };
+        i += 1;
+    }
+    classes
+};
+
+fn class(byte: u8) -> Class {
+    CLASSES[usize::from(byte)]
 }
 
 impl<'a> Text<'a> {
     /// Before the first line. A UTF-8 byte order mark is skipped.
-    pub fn new(bytes: &'a [u8], comments: bool) -> Text<'a> {
+    pub fn new(bytes: &'a [u8], syntax: Syntax) -> Text<'a> {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let used = bytes.iter().rposition(|b| !matches!(b, 0 | 0x1a));
+        let rest = &bytes[..used.map_or(0, |last| last + 1)];
         Text {
-            rest: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes),
+            rest,
+            whole: &[],
             line: &[],
             number: 0,
-            comments,
+            padding: bytes.len() - rest.len(),
+            syntax,
+            forgiven: Forgiven::default(),
         }
     }
 
@@ -32,17 +94,64 @@ impl<'a> Text<'a> {
     pub fn piece(&self, bytes: &'a [u8]) -> Text<'a> {
         Text {
             rest: bytes,
+            whole: &[],
             line: &[],
             number: 0,
-            comments: self.comments,
+            padding: 0,
+            syntax: self.syntax,
+            forgiven: Forgiven::default(),
         }
     }
 
-    /// Drops the rest of the current line, and some bytes, which are so many lines.
-    pub fn skip(&mut self, bytes: usize, lines: usize) {
+    /// Goes to the end of a piece of the file that was read for itself.
+    pub fn skip_piece(&mut self, bytes: usize, piece: Text<'a>) {
+        self.forgiven.append(self.number, piece.forgiven);
         self.rest = &self.rest[bytes..];
         self.line = &[];
-        self.number += lines;
+        self.number += piece.number;
+    }
+
+    /// Remembers that something on the current line is forgiven.
+    pub fn forgive(&mut self, code: NoteCode) {
+        self.forgiven.add(code, self.number.max(1));
+    }
+
+    /// The same, with what it is called.
+    pub fn forgive_named(&mut self, code: NoteCode, name: String) {
+        self.forgiven.add_named(code, self.number.max(1), name);
+    }
+
+    /// The same of a line that is behind, but not before one of an earlier call for the kind.
+    pub fn forgive_line(&mut self, code: NoteCode, line: usize) {
+        self.forgiven.add(code, line);
+    }
+
+    /// The same, with what it is called.
+    pub fn forgive_at(&mut self, code: NoteCode, line: usize, name: String) {
+        self.forgiven.add_named(code, line, name);
+    }
+
+    /// Notes on what was forgiven in the whole file.
+    pub fn into_notes(mut self) -> Vec<Note> {
+        if self.padding > 0 {
+            self.forgive(NoteCode::TrailingData);
+        }
+        self.forgiven.into_notes()
+    }
+
+    /// Notes on what was forgiven in what was read, where the rest of the file is no text.
+    pub fn into_notes_of_header(self) -> Vec<Note> {
+        self.forgiven.into_notes()
+    }
+
+    /// Where the text of a file of so many bytes ends.
+    pub fn end(&self, size: usize) -> usize {
+        size - self.padding
+    }
+
+    /// How many bytes of the file, which has so many, are behind.
+    pub fn offset(&self, size: usize) -> usize {
+        size - self.padding - self.rest.len()
     }
 
     /// Goes to the next line that has a word; false at the end of the file.
@@ -61,24 +170,70 @@ impl<'a> Text<'a> {
             self.line = &[];
             return false;
         }
-        let end = |b: &u8| matches!(b, b'\n' | b'\r');
-        let length = self.rest.iter().position(end).unwrap_or(self.rest.len());
-        let (line, tail) = self.rest.split_at(length);
+        let stop = |b: &u8| matches!(b, b'\n' | b'\r' | b'#');
+        let length = self.rest.iter().position(stop).unwrap_or(self.rest.len());
+        let (mut line, mut tail) = self.rest.split_at(length);
+        if let [b'#', ..] = tail {
+            let end = |b: &u8| matches!(b, b'\n' | b'\r');
+            let more = tail.iter().position(end).unwrap_or(tail.len());
+            tail = &tail[more..];
+            if self.syntax != Syntax::Hash {
+                line = &self.rest[..length + more];
+            }
+        }
         self.rest = match tail {
             [b'\r', b'\n', rest @ ..] | [_, rest @ ..] => rest,
             [] => &[],
         };
         self.number += 1;
-        self.line = match line.iter().position(|&b| b == b'#') {
-            Some(comment) if self.comments => &line[..comment],
-            _ => line,
-        };
+        self.whole = line;
+        self.line = line;
         true
     }
 
-    /// Whether the current line has one more word.
-    pub fn has_word(&self) -> bool {
-        !self.line.trim_ascii().is_empty()
+    /// Whether the current line has one more word. Blanks and comments before it are dropped.
+    pub fn has_word(&mut self) -> bool {
+        loop {
+            let line = self.line;
+            let start = line.iter().position(|&b| class(b) != Class::Blank);
+            let Some(start) = start else {
+                self.line = &[];
+                return false;
+            };
+            self.line = &line[start..];
+            if class(line[start]) == Class::Word || !self.skip_special() {
+                return true;
+            }
+        }
+    }
+
+    /// Skips a comment, or a comma before a number; false if a word begins.
+    #[cold]
+    fn skip_special(&mut self) -> bool {
+        let line = self.line;
+        match line {
+            [b'#' | b'!', ..] | [b'/', b'/', ..] => {
+                self.forgive(NoteCode::ForeignComment);
+                self.line = &[];
+            }
+            [b'{', ..] if self.syntax == Syntax::Braces => {
+                let Some(end) = line.iter().position(|&b| b == b'}') else {
+                    return false;
+                };
+                self.line = &line[end + 1..];
+            }
+            // Not two commas, nor one where the line begins: something is missing.
+            [b',', rest @ ..] => {
+                let before = &self.whole[..self.whole.len() - line.len()];
+                if matches!(before.trim_ascii_end().last(), None | Some(b',')) {
+                    return false;
+                }
+                self.forgive(NoteCode::CommaSeparator);
+                self.line = rest;
+            }
+            _ => return false,
+        }
+        true
     }
 
     /// The number of the current line, from 1.
@@ -110,13 +265,64 @@ impl<'a> Text<'a> {
         self.line = &[];
     }
 
+    /// Goes on within the current line, after so many more of its bytes.
+    pub fn skip_in_line(&mut self, bytes: usize) {
+        self.line = &self.line[bytes..];
+    }
+
     /// The next word of the current line.
     pub fn token(&mut self) -> Option<&'a [u8]> {
-        let line = self.line.trim_ascii_start();
-        let length = line.iter().position(u8::is_ascii_whitespace);
-        let (token, rest) = line.split_at(length.unwrap_or(line.len()));
+        if !self.has_word() {
+            return None;
+        }
+        let line = self.line;
+        let end = line.iter().position(|&b| class(b) >= Class::Comma);
+        let (token, rest) = line.split_at(end.unwrap_or(line.len()));
         self.line = rest;
-        (!token.is_empty()).then_some(token)
+        if let [b',', ..] = rest {
+            return Some(self.before_comma(line, token));
+        }
+        Some(token)
+    }
+
+    /// The word that begins a part of the line, and has a comma after it or within it.
+    #[cold]
+    fn before_comma(&mut self, line: &'a [u8], token: &'a [u8]) -> &'a [u8] {
+        let rest = &self.line[1..];
+        let is_end = rest.first().is_none_or(|&b| class(b) == Class::Blank);
+        if !token.is_empty() && (is_end || is_separated_by_commas(self.whole)) {
+            self.forgive(NoteCode::CommaSeparator);
+            self.line = rest;
+            return token;
+        }
+        let end = line.iter().position(|&b| class(b) == Class::Blank);
+        let (word, rest) = line.split_at(end.unwrap_or(line.len()));
+        self.line = rest;
+        word
+    }
+
+    /// Whether nothing but commas, without blanks, stands between the fields of the current line.
+    pub fn is_separated_by_commas(&self) -> bool {
+        self.forgiven.is_on(NoteCode::CommaSeparator, self.number)
+            && is_separated_by_commas(self.whole)
+    }
+
+    /// Where the reading is, to come back to.
+    pub fn mark(&self) -> Mark<'a> {
+        Mark {
+            rest: self.rest,
+            whole: self.whole,
+            line: self.line,
+            number: self.number,
+        }
+    }
+
+    /// Comes back.
+    pub fn return_to(&mut self, mark: Mark<'a>) {
+        self.rest = mark.rest;
+        self.whole = mark.whole;
+        self.line = mark.line;
+        self.number = mark.number;
     }
 
     /// The next word, which must be on the current line.
@@ -151,7 +357,7 @@ impl<'a> Text<'a> {
     }
 
     /// A finite number.
-    pub fn real(&self, token: &[u8]) -> Result<f64, FormatError> {
+    pub fn real(&mut self, token: &[u8]) -> Result<f64, FormatError> {
         let x = self.number(token)?;
         if x.is_finite() {
             Ok(x)
@@ -161,15 +367,26 @@ impl<'a> Text<'a> {
     }
 
     /// A number, finite or not.
-    pub fn number(&self, token: &[u8]) -> Result<f64, FormatError> {
-        self.parse(token, "a number")
+    pub fn number(&mut self, token: &[u8]) -> Result<f64, FormatError> {
+        let value = std::str::from_utf8(token).ok().and_then(|t| t.parse().ok());
+        if let Some(x) = value {
+            return Ok(x);
+        }
+        if let Some(x) = fortran(token) {
+            self.forgive(NoteCode::FortranExponent);
+            return Ok(x);
+        }
+        Err(self.no_number(token, "a number"))
     }
 
     /// A whole number.
     pub fn integer(&self, token: &[u8]) -> Result<i64, FormatError> {
         match whole(token) {
             Some(number) => Ok(number),
-            None => self.parse(token, "a whole number"),
+            None => {
+                let value = std::str::from_utf8(token).ok().and_then(|t| t.parse().ok());
+                value.ok_or_else(|| self.no_number(token, "a whole number"))
+            }
         }
     }
 
@@ -200,24 +417,18 @@ impl<'a> Text<'a> {
         Ok(point)
     }
 
-    fn parse<T: std::str::FromStr>(
-        &self,
-        token: &[u8],
-        expected: &'static str,
-    ) -> Result<T, FormatError> {
-        let value = std::str::from_utf8(token).ok().and_then(|t| t.parse().ok());
-        value.ok_or_else(|| {
-            if has_decimal_comma(token) {
-                self.error(Reason::DecimalComma(shorten(token)))
-            } else {
-                self.bad(token, expected)
-            }
-        })
+    #[cold]
+    fn no_number(&self, token: &[u8], expected: &'static str) -> FormatError {
+        if has_decimal_comma(token) {
+            self.error(Reason::DecimalComma(shorten(token)))
+        } else {
+            self.bad(token, expected)
+        }
     }
 
     /// The line of the current word.
-    pub fn place(&self) -> Place {
-        Place::Line(self.number.max(1))
+    pub fn position(&self) -> FilePosition {
+        FilePosition::Line(self.number.max(1))
     }
 
     /// The error that `token` is not what was `expected`.
@@ -231,107 +442,21 @@ impl<'a> Text<'a> {
     /// An error at the current line.
     pub fn error(&self, reason: Reason) -> FormatError {
         FormatError::Malformed {
-            place: self.place(),
+            at: self.position(),
             reason,
         }
     }
 }
 
-/// The whole number that a word with few digits is, as most are; `str::parse` would say the same.
-pub(super) fn whole(token: &[u8]) -> Option<i64> {
-    let digits = token.strip_prefix(b"-").unwrap_or(token);
-    if !(1..=18).contains(&digits.len()) {
-        return None;
-    }
-    let mut number = 0;
-    for digit in digits {
-        match digit.wrapping_sub(b'0') {
-            digit @ 0..=9 => number = 10 * number + i64::from(digit),
-            _ => return None,
-        }
-    }
-    Some(if digits.len() < token.len() {
-        -number
-    } else {
-        number
-    })
-}
-
-/// Whether a word is a number but for a comma: `1,5` or `-2,50e3`.
-fn has_decimal_comma(token: &[u8]) -> bool {
-    let text = std::str::from_utf8(token).unwrap_or_default();
-    let (whole, fraction) = text.split_once(',').unwrap_or_default();
-    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    digit(whole.chars().next_back())
-        && digit(fraction.chars().next())
-        && text.replacen(',', ".", 1).parse::<f64>().is_ok()
-}
-
-/// The first 40 characters of a word, which in a binary file can be very long.
-pub(super) fn shorten(token: &[u8]) -> String {
-    let text = String::from_utf8_lossy(&token[..token.len().min(160)]);
-    text.chars().take(40).collect()
+/// A place in a text to which its reader can come back.
+#[derive(Clone, Copy)]
+pub(super) struct Mark<'a> {
+    rest: &'a [u8],
+    whole: &'a [u8],
+    line: &'a [u8],
+    number: usize,
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts_lines_of_all_endings() {
-        let mut text = Text::new(b"\xef\xbb\xbfa\r\n\r\n# b\rc # d\n\n e", true);
-        let mut seen = Vec::new();
-        while text.advance() {
-            seen.push((text.number, text.token().unwrap()));
-            assert_eq!(text.token(), None);
-        }
-        assert_eq!(seen, [(1, &b"a"[..]), (4, &b"c"[..]), (6, &b"e"[..])]);
-    }
-
-    #[test]
-    fn numbers_are_strict() {
-        let text = Text::new(b"", true);
-        assert_eq!(text.real(b"-1.5e3").unwrap(), -1500.0);
-        for bad in [
-            &b"1.0x"[..],
-            b"1,0",
-            b"nan",
-            b"-inf",
-            b"1e999",
-            b"\xff",
-            b"",
-        ] {
-            assert!(text.real(bad).is_err(), "{bad:?}");
-        }
-        for comma in [&b"1,5"[..], b"-2,50e3"] {
-            let reason = Reason::DecimalComma(shorten(comma));
-            assert_eq!(
-                text.real(comma).unwrap_err().to_string(),
-                text.error(reason).to_string()
-            );
-        }
-        for bad in [
-            &b"1.0"[..],
-            b"0x1",
-            b"99999999999999999999",
-            b"-",
-            b"--1",
-            b"+-1",
-        ] {
-            assert!(text.integer(bad).is_err(), "{bad:?}");
-        }
-        for good in [
-            "0",
-            "-0",
-            "+7",
-            "-12",
-            "000000000000000000000012",
-            "999999999999999999",
-            "-9223372036854775808",
-        ] {
-            let number = text.integer(good.as_bytes()).unwrap();
-            assert_eq!(number, good.parse::<i64>().unwrap());
-        }
-        assert!(text.count(b"-1", "it").is_err());
-    }
-}
+#[path = "text_tests.rs"]
+mod tests;

@@ -11,6 +11,7 @@ mod domains;
 mod exact_steiner;
 mod examples;
 mod fixtures;
+mod forgiven;
 mod format;
 mod fuzz_formats;
 mod fuzz_pipeline;

@@ -101,7 +101,10 @@ proptest! {
     fn broken_files_are_no_panic(
         mesh in mesh(),
         file in 0usize..4,
-        changes in prop::collection::vec((any::<prop::sample::Index>(), prop::sample::select(b"0123456789-.#e\n \x00\xff,n".to_vec())), 1..6),
+        changes in prop::collection::vec(
+            (any::<prop::sample::Index>(), prop::sample::select(b"0123456789-.#e\n \x00\xff,n".to_vec())),
+            1..6,
+        ),
         cut in prop::option::of(any::<prop::sample::Index>()),
     ) {
         let directory = TempDir::new().unwrap();
@@ -253,11 +256,11 @@ fn errors_name_file_line_and_reason() {
         ("t.1.node", "1\n1 0 0\n", 2, Missing("z")),
         (
             "t.1.node",
-            "1\n2 0 0 0\n",
-            2,
+            "2\n2 0 0 0\n4 0 0 0\n",
+            3,
             VertexNumber {
-                found: 2,
-                expected: 1,
+                found: 4,
+                expected: 3,
             },
         ),
         (
@@ -473,7 +476,11 @@ fn decimal_commas_are_no_separators() {
     std::fs::write(place.path().join("a.node"), decimal).expect("a file");
     let error = read_mesh(&place.path().join("a.node")).expect_err("commas");
     assert!(
-        matches!(&error, MeshFileError::Line { line: 5, reason: MeshLineError::BadNumber { found, .. }, .. } if found == "0,0"),
+        matches!(
+            &error,
+            MeshFileError::Line { line: 5, reason: MeshLineError::BadNumber { found, .. }, .. }
+                if found == "0,0"
+        ),
         "{error}"
     );
 }

@@ -3,7 +3,7 @@
 
 use tetflip::exchange::{Note, Plc};
 use tetflip::format::{
-    FormatError, Place, Reason, read_medit, read_obj, read_off, read_plc, read_ply,
+    FilePosition, FormatError, Reason, read_medit, read_obj, read_off, read_plc, read_ply,
 };
 use tetflip::mesh::VertexId;
 
@@ -34,9 +34,9 @@ fn is_the_cube(plc: &Plc, first_index: u32, vertices: &[[f64; 3]]) {
     }
 }
 
-fn refusal(result: Result<(Plc, Vec<Note>), FormatError>) -> (Place, Reason) {
+fn refusal(result: Result<(Plc, Vec<Note>), FormatError>) -> (FilePosition, Reason) {
     match result {
-        Err(FormatError::Malformed { place, reason }) => (place, reason),
+        Err(FormatError::Malformed { at, reason }) => (at, reason),
         other => panic!("{other:?}"),
     }
 }
@@ -56,7 +56,8 @@ fn negative(what: &'static str) -> Reason {
 
 fn ply_header(format: &str, real: &str, counter: &str, whole: &str) -> String {
     format!(
-        "ply\nformat {format} 1.0\ncomment caf\u{e9} # no comment sign\nobj_info x\nelement vertex 8\nproperty uchar red\n\
+        "ply\nformat {format} 1.0\ncomment caf\u{e9} # no comment sign\nobj_info x\nelement vertex 8\n\
+         property uchar red\n\
          property {real} x\nproperty {real} y\nproperty {real} z\nproperty list uchar short weights\nelement face 6\n\
          property list {counter} {whole} vertex_indices\nproperty int id\nelement empty 4000000000\nelement edge 1\n\
          property int vertex1\nproperty int vertex2\nend_header\n"
@@ -159,7 +160,7 @@ fn ply_says_where_it_is_wrong() {
     use Reason::*;
     let text = ply_ascii();
     let cases: [(&str, &str, usize, Reason); 19] = [
-        ("ply\n", "PLY\n", 1, token("PLY", "ply")),
+        ("ply\n", "plyx\n", 1, token("plyx", "ply")),
         ("1.0", "1.1", 2, token("1.1", "the version 1.0")),
         ("format ascii 1.0\n", "", 17, Missing("the line format is")),
         (
@@ -203,8 +204,8 @@ fn ply_says_where_it_is_wrong() {
         (
             "element empty 4000000000",
             "element tristrips 1",
-            14,
-            Unsupported("triangle strips are"),
+            15,
+            Missing("the list vertex_indices of faces is"),
         ),
         (
             "end_header\n",
@@ -230,10 +231,13 @@ fn ply_says_where_it_is_wrong() {
     for (from, to, line, reason) in cases {
         assert!(text.contains(from), "{from}");
         let result = read_ply(text.replacen(from, to, 1).as_bytes());
-        assert_eq!(refusal(result), (Place::Line(line), reason), "{to}");
+        assert_eq!(refusal(result), (FilePosition::Line(line), reason), "{to}");
     }
     let more = read_ply((text.clone() + "\n\nx").as_bytes());
-    assert_eq!(refusal(more), (Place::Line(36), Trailing("x".into())));
+    assert_eq!(
+        refusal(more),
+        (FilePosition::Line(36), Trailing("x".into()))
+    );
     let fewer = text.strip_suffix("0 7\n").expect("an edge");
     assert_eq!(refusal(read_ply(fewer.as_bytes())).1, Truncated("an edge"));
 
@@ -243,21 +247,24 @@ fn ply_says_where_it_is_wrong() {
     nan[start + 9..start + 17].copy_from_slice(&f64::NAN.to_be_bytes());
     assert_eq!(
         refusal(read_ply(&nan)),
-        (Place::Byte(start + 9), NotFinite("NaN".into()))
+        (FilePosition::Byte(start + 9), NotFinite("NaN".into()))
     );
     let faces = start + 8 * 28;
     let mut range = bytes.clone();
     range[faces + 2] = 128;
     let reason = index(i64::from(i32::MIN), 0, 7);
-    assert_eq!(refusal(read_ply(&range)), (Place::Byte(faces + 2), reason));
+    assert_eq!(
+        refusal(read_ply(&range)),
+        (FilePosition::Byte(faces + 2), reason)
+    );
     for length in start..bytes.len() {
         let (place, reason) = refusal(read_ply(&bytes[..length]));
-        assert!(matches!((place, reason), (Place::Byte(n), Truncated(_)) if n == length));
+        assert!(matches!((place, reason), (FilePosition::Byte(n), Truncated(_)) if n == length));
     }
-    let more = [&bytes[..], b"\n\0"].concat();
+    let more = [&bytes[..], b"\n\0\n\0\n\0\n\0"].concat();
     assert_eq!(
         refusal(read_ply(&more)),
-        (Place::Byte(bytes.len()), Trailing("2 bytes".into()))
+        (FilePosition::Byte(bytes.len()), Trailing("8 bytes".into()))
     );
     assert!(read_ply(&[&bytes[..], b"\r\n"].concat()).is_ok());
 }
@@ -316,7 +323,11 @@ fn obj_says_where_it_is_wrong() {
         ("cstype bezier\n", 4, Unsupported("curves and surfaces are")),
     ] {
         let result = read_obj(format!("{head}{tail}").as_bytes());
-        assert_eq!(refusal(result), (Place::Line(line), reason), "{tail}");
+        assert_eq!(
+            refusal(result),
+            (FilePosition::Line(line), reason),
+            "{tail}"
+        );
     }
     assert_eq!(refusal(read_obj(b"# nothing\n")).1, NoVertices);
 }
@@ -358,7 +369,7 @@ fn medit_says_where_it_is_wrong() {
     use Reason::*;
     let text = medit();
     let known = "a known keyword of a Medit file";
-    let cases: [(&str, &str, usize, Reason); 13] = [
+    let cases: [(&str, &str, usize, Reason); 11] = [
         (
             "MeshVersionFormatted",
             "Mesh",
@@ -390,18 +401,16 @@ fn medit_says_where_it_is_wrong() {
         ("1 3 4 2 0", "1 3 4 0 0", 16, index(0, 1, 8)),
         (
             "1 3 4 2 0",
-            "1 3 4 2 18446744073709551616",
+            "1 3 4 2 9223372036854775808",
             16,
-            token("18446744073709551616", "a whole number"),
+            token("9223372036854775808", "a whole number"),
         ),
         ("Corners 2", "Corners 3", 23, token("Normals", "a number")),
-        ("End\n", "", 29, Truncated("End")),
-        ("End\n", "End 1\n", 30, Trailing("1".into())),
     ];
     for (from, to, line, reason) in cases {
         assert!(text.contains(from), "{from}");
         let result = read_medit(text.replacen(from, to, 1).as_bytes());
-        assert_eq!(refusal(result), (Place::Line(line), reason), "{to}");
+        assert_eq!(refusal(result), (FilePosition::Line(line), reason), "{to}");
     }
     let head = "MeshVersionFormatted 1\nDimension 3\n";
     let other = |tail: &str| refusal(read_medit(format!("{head}{tail}").as_bytes())).1;
@@ -417,7 +426,7 @@ fn medit_says_where_it_is_wrong() {
     assert_eq!(
         binary,
         (
-            Place::Byte(0),
+            FilePosition::Byte(0),
             Unsupported("binary Medit files (.meshb) are")
         )
     );
@@ -473,7 +482,7 @@ fn binary_off_of_every_layout() {
     bytes[face + 7] = 8;
     assert_eq!(
         refusal(read_off(&bytes)),
-        (Place::Byte(face + 4), index(8, 0, 7))
+        (FilePosition::Byte(face + 4), index(8, 0, 7))
     );
     bytes[15..19].fill(255);
     assert!(matches!(

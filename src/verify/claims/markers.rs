@@ -2,9 +2,9 @@
 //!
 //! Every face that covers a facet must be listed, if any face is; a face of the boundary that is on no facet may be,
 //! where the mesh fills the convex hull. Where a facet is flat only to rounding, more than one surface of faces may
-//! cover it ([`super::facets`]): a listed face of any of them is on the facet. Facets that were merged have equal markers; where facets overlap or are equal,
-//! a face has the marker of one of them. Where the input has no marker (0), other programs write 1 or −1, which is
-//! counted.
+//! cover it ([`super::facets`]): a listed face of any of them is on the facet. Facets that were merged have equal
+//! markers; where facets overlap or are equal, a face has the marker of one of them. Where the input has no marker (0),
+//! other programs write 1 or −1, which is counted.
 //!
 //! How the listed vertices turn is not judged but counted: a face of the boundary should be counterclockwise for one
 //! who looks from outside, and a face between two regions for one who looks from the one with the larger attribute.

@@ -27,7 +27,8 @@ fn ply_obj_and_medit_are_meshed_and_verified() {
         format!("MeshVersionFormatted 1\nDimension 3\nVertices 8\n{v}Quadrilaterals 6\n{f}End\n");
     let (v, f) = list("", "4 ", 0, "");
     let ply = format!(
-        "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\nelement face 6\n\
+        "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n\
+         element face 6\n\
          property list uchar int vertex_indices\nend_header\n{v}{f}"
     );
     let place = Place::with(&[("a.obj", &obj), ("b.mesh", &medit), ("C.PLY", &ply)]);
