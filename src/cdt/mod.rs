@@ -11,11 +11,6 @@ mod inside;
 mod interpolation;
 mod open;
 
-pub mod flips;
-
-pub use crate::predicate::Steiner;
-pub use crate::recover::polygons::Insertion;
-pub use crate::update::DeletionCounts;
 pub use call::{MeshError, MeshOptions, Meshed, SteinerChoice, mesh, mesh_with_progress};
 
 use crate::clock::TaskSeconds;
@@ -25,14 +20,14 @@ use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
 use crate::mesh::{TetMesh, VertexId};
 use crate::plc::{Complex, PlcError};
-use crate::predicate::{DoublePoints, PointStore};
+use crate::predicate::{DoublePoints, PointStore, Steiner};
 use crate::recover::flatten::flatten;
 use crate::recover::flips::{FlipObserver, FlipRegion};
-use crate::recover::polygons::{FlipOrder, PolygonCounts, PolygonInsertion};
+use crate::recover::polygons::{FlipOrder, Insertion, PolygonCounts, PolygonInsertion};
 use crate::recover::segments::{GoOn, recover_segments};
 use crate::recover::workspace::{ConstrainedMesh, EdgeProtectedPlc};
 use crate::report::{Phase, Report};
-use crate::update::PolygonDeletion;
+use crate::update::{DeletionCounts, PolygonDeletion};
 use open::encloses_nothing;
 use std::cell::OnceCell;
 use std::sync::Arc;

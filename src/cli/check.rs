@@ -1,6 +1,7 @@
 //! `tetflip check`: why an input is no valid PLC.
 
-use super::{Stop, check_outputs, read, say};
+use super::input::Input;
+use super::{Stop, check_outputs, say};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use tetflip::check::{Conflict, Findings, Part, check};
@@ -11,8 +12,11 @@ use tetflip::plc::{EdgeName, FacetName, VertexName};
 
 #[derive(clap::Args)]
 pub(crate) struct CheckArguments {
-    /// The PLC, in any input format.
+    /// The PLC, in any input format; `-` reads stdin.
     input: PathBuf,
+    /// The format of the input, whatever its name: poly, smesh, node, off, stl, ply, obj or mesh.
+    #[arg(long, value_name = "FORMAT")]
+    format: Vec<String>,
     /// Print the findings as one JSON object instead of lines.
     #[arg(long)]
     json: bool,
@@ -29,14 +33,15 @@ pub(crate) struct CheckArguments {
 
 /// Checks a PLC and prints what is wrong with it.
 pub(crate) fn check_file(arguments: &CheckArguments) -> Result<(), Stop> {
+    let input = Input::alone(&arguments.input, &arguments.format)?;
     if let Some(path) = &arguments.output {
         if path.extension().is_none_or(|e| e != "vtu") {
             let path = path.display();
             return Err(Stop::input(format!("{path}: the extension must be .vtu")));
         }
-        check_outputs(&arguments.input, Some(path), None)?;
+        check_outputs(&input, Some(path), None)?;
     }
-    let (plc, _) = read(&arguments.input)?;
+    let (plc, _) = input.read()?;
     let findings = check(&plc, arguments.max);
     if let Some(path) = &arguments.output {
         write_conflicts(path, &plc, &findings).map_err(Stop::input)?;
@@ -50,10 +55,7 @@ pub(crate) fn check_file(arguments: &CheckArguments) -> Result<(), Stop> {
     if findings.is_valid() {
         Ok(())
     } else {
-        Err(Stop::input(format!(
-            "{} is no valid PLC",
-            arguments.input.display()
-        )))
+        Err(Stop::input(format!("{} is no valid PLC", input.name())))
     }
 }
 

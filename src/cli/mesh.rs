@@ -1,11 +1,12 @@
 //! `tetflip mesh`: the CDT of a PLC.
 
-use super::output::{Output, STDOUT};
-use super::{Stop, check_outputs, failure_path, read, warn};
+use super::input::Input;
+use super::output::Output;
+use super::{Stop, check_outputs, failure_path, warn};
 use clap::ValueEnum;
 use serde::Serialize;
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tetflip::cdt::{MeshError, MeshOptions, Meshed, SteinerChoice, mesh_with_progress};
 use tetflip::error::Failure;
 use tetflip::exchange::{Note, Plc};
@@ -17,15 +18,15 @@ use tetflip::verify::{Domain, VerifyOptions, verify};
 
 #[derive(clap::Args)]
 pub(crate) struct MeshArguments {
-    /// The PLC: .poly, .smesh, .node, .off, .stl, .ply, .obj or .mesh.
+    /// The PLC: .poly, .smesh, .node, .off, .stl, .ply, .obj or .mesh; `-` reads stdin.
     input: PathBuf,
     /// Where to write the mesh: NAME.node writes NAME.node, .ele, .face and .edge; NAME.vtu is for ParaView; `-`
-    /// writes to stdout what --format says.
+    /// writes to stdout.
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// The format of `-`: vtu.
+    /// The format of the input, whatever its name, or of the output `-`: vtu. It may be given for each.
     #[arg(long, value_name = "FORMAT")]
-    format: Option<String>,
+    format: Vec<String>,
     /// How polygons are inserted.
     #[arg(long, value_enum, default_value_t = InsertArgument::Flip)]
     insert: InsertArgument,
@@ -94,16 +95,17 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         },
         drop_unused: arguments.drop_unused,
     };
-    let output = Output::new(arguments.output.as_deref(), arguments.format.as_deref())?;
+    let (input, formats) = Input::new(&arguments.input, &arguments.format)?;
+    let output = Output::new(arguments.output.as_deref(), &formats, &input)?;
     let report = arguments.report.as_deref();
-    check_outputs(&arguments.input, output.path(), report)?;
-    let (plc, read_notes) = read(&arguments.input)?;
+    check_outputs(&input, output.path(), report)?;
+    let (plc, read_notes) = input.read()?;
     let bar = progress_bar(plc.facets.len(), arguments.quiet);
     let result = mesh_with_progress(&plc, &options, &mut |done| bar.set_position(done as u64));
     bar.finish_and_clear();
     match result {
         Ok(meshed) => finish(arguments, &output, &plc, read_notes, meshed),
-        Err(error) => Err(refuse(arguments, read_notes, error)),
+        Err(error) => Err(refuse(arguments, &input, output.path(), read_notes, error)),
     }
 }
 
@@ -145,13 +147,19 @@ fn finish(
 }
 
 /// The message of a failure, after its report has been written.
-fn refuse(arguments: &MeshArguments, read_notes: Vec<Note>, mut error: MeshError) -> Stop {
+fn refuse(
+    arguments: &MeshArguments,
+    input: &Input,
+    output: Option<&Path>,
+    read_notes: Vec<Note>,
+    mut error: MeshError,
+) -> Stop {
     print_and_join(read_notes, &mut error.report);
     let mut message = error.to_string();
     if let Err(stop) = write_report(arguments, &message, &error.report) {
         return stop;
     }
-    let input = arguments.input.display();
+    let input = input.words();
     if error.findings.is_some() {
         message += &format!("\nfor all that is wrong: tetflip check {input}");
     }
@@ -164,7 +172,7 @@ fn refuse(arguments: &MeshArguments, read_notes: Vec<Note>, mut error: MeshError
         return Stop::input(message);
     }
     if let Some(region) = error.failure.region() {
-        message += &dump_region(arguments, region);
+        message += &dump_region(arguments, output, region);
     }
     Stop::failed(message)
 }
@@ -216,8 +224,8 @@ fn remove_old_region(output: &Output) -> Result<(), Stop> {
 }
 
 /// Writes the region of failed flips, and says where it is and how to try again.
-fn dump_region(arguments: &MeshArguments, region: &Plc) -> String {
-    let Some(output) = arguments.output.as_deref().filter(|&path| path != STDOUT) else {
+fn dump_region(arguments: &MeshArguments, output: Option<&Path>, region: &Plc) -> String {
+    let Some(output) = output else {
         return "; with --output, the region is written beside it".to_owned();
     };
     let path = failure_path(output);

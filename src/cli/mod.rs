@@ -3,15 +3,16 @@
 pub(crate) mod check;
 pub(crate) mod delaunay;
 pub(crate) mod generate;
+mod input;
 pub(crate) mod mesh;
 mod output;
 pub(crate) mod survey;
 pub(crate) mod verify;
 
+use input::Input;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tetflip::exchange::{Note, Plc};
-use tetflip::format::{FormatError, mesh_paths, node_path, read_plc, read_poly, read_smesh};
+use tetflip::format::{FormatError, mesh_paths, node_path, read_poly, read_smesh};
 
 /// A failure with its exit status.
 pub(crate) struct Stop {
@@ -44,22 +45,8 @@ pub(crate) fn failure_path(output: &Path) -> PathBuf {
     output.with_extension("failure.poly")
 }
 
-/// Reads a PLC and prints the notes of its reader, which are returned, too; the message of a failure names the file.
-pub(crate) fn read(path: &Path) -> Result<(Plc, Vec<Note>), Stop> {
-    let read = read_plc(path).map_err(|error| match error {
-        FormatError::Io { .. } => Stop::input(error),
-        error => Stop::input(format!("{}: {error}", path.display())),
-    })?;
-    read.1.iter().for_each(|note| warn(&note.to_string()));
-    Ok(read)
-}
-
 /// Refuses outputs that cannot be written, would replace an input, or each other, before any work is done.
-pub(crate) fn check_outputs(
-    input: &Path,
-    mesh: Option<&Path>,
-    report: Option<&Path>,
-) -> Result<(), Stop> {
+fn check_outputs(input: &Input, mesh: Option<&Path>, report: Option<&Path>) -> Result<(), Stop> {
     let mut outputs: Vec<PathBuf> = Vec::new();
     if let Some(path) = mesh {
         outputs.extend(mesh_paths(path).map_err(Stop::input)?);
@@ -74,6 +61,9 @@ pub(crate) fn check_outputs(
         }
         outputs.push(report.to_path_buf());
     }
+    let Some(input) = input.file() else {
+        return Ok(());
+    };
     let node = node_path(input);
     for output in outputs {
         let replaces = |file: &Path| match (output.canonicalize(), file.canonicalize()) {

@@ -1,5 +1,6 @@
 //! Where a mesh goes: to files, to stdout, or nowhere.
 
+use super::input::Input;
 use super::{Stop, say, warn};
 use std::io::Write;
 use std::path::Path;
@@ -7,7 +8,7 @@ use tetflip::exchange::ExportedMesh;
 use tetflip::format::{write_mesh, write_mesh_to};
 
 /// The path that stands for stdout.
-pub(super) const STDOUT: &str = "-";
+const STDOUT: &str = "-";
 
 /// Where a mesh goes.
 pub(super) enum Output<'a> {
@@ -23,21 +24,30 @@ pub(super) enum Output<'a> {
 }
 
 impl<'a> Output<'a> {
-    /// Of the arguments.
-    pub fn new(path: Option<&'a Path>, format: Option<&'a str>) -> Result<Output<'a>, Stop> {
-        match (path, format) {
-            (Some(path), Some(format)) if path == STDOUT => {
+    /// Of the arguments. If the input is stdin, with a format, then stdout needs none, since there is but one.
+    pub fn new(
+        path: Option<&'a Path>,
+        formats: &[&'a str],
+        input: &Input,
+    ) -> Result<Output<'a>, Stop> {
+        match (path, formats) {
+            (Some(path), &[format]) if path == STDOUT => {
                 // Refused before there is work.
                 let probe = ExportedMesh::default();
                 write_mesh_to(&mut std::io::sink(), format, &probe).map_err(Stop::input)?;
                 Ok(Output::Stdout { format })
             }
-            (Some(path), None) if path == STDOUT => {
-                Err(Stop::input("--output - needs a --format, vtu"))
-            }
-            (_, Some(_)) => Err(Stop::input("--format is the format of --output -")),
-            (Some(path), None) => Ok(Output::Files(path)),
-            (None, None) => Ok(Output::Nowhere),
+            (Some(path), []) if path == STDOUT => match input.format_name() {
+                Some(_) if input.is_stdin() => Ok(Output::Stdout { format: "vtu" }),
+                // A file has its name: the format was meant for stdout.
+                Some(format) => Output::new(Some(path), &[format], input),
+                None => Err(Stop::input("--output - needs a --format, vtu")),
+            },
+            (Some(path), []) => Ok(Output::Files(path)),
+            (None, []) => Ok(Output::Nowhere),
+            (_, [format, ..]) => Err(Stop::input(format!(
+                "--format {format} is neither a format of a PLC nor, once, that of --output -"
+            ))),
         }
     }
 

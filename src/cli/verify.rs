@@ -1,6 +1,7 @@
 //! `tetflip verify`: a mesh, whoever wrote it, against its PLC.
 
-use super::{Stop, read, say, warn};
+use super::input::Input;
+use super::{Stop, say, warn};
 use clap::ValueEnum;
 use std::path::PathBuf;
 use tetflip::exchange::{Note, NoteCode};
@@ -9,10 +10,13 @@ use tetflip::verify::{Domain, VerifyOptions, verify};
 
 #[derive(clap::Args)]
 pub(crate) struct VerifyArguments {
-    /// The PLC.
+    /// The PLC; `-` reads stdin.
     plc: PathBuf,
     /// The mesh: NAME.node, with NAME.ele and, if there, NAME.face and NAME.edge beside it; or Medit's NAME.mesh.
     mesh: PathBuf,
+    /// The format of the PLC, whatever its name: poly, smesh, node, off, stl, ply, obj or mesh.
+    #[arg(long, value_name = "FORMAT")]
+    format: Vec<String>,
     /// Which part of space the mesh is meant to fill.
     #[arg(long, value_enum, default_value_t = DomainArgument::Auto)]
     domain: DomainArgument,
@@ -62,7 +66,8 @@ fn merge_angle(word: &str) -> Result<f64, String> {
 
 /// Verifies a mesh against its PLC.
 pub(crate) fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
-    let (plc, mesh) = rayon::join(|| read(&arguments.plc), || read_mesh(&arguments.mesh));
+    let input = Input::alone(&arguments.plc, &arguments.format)?;
+    let (plc, mesh) = rayon::join(|| input.read(), || read_mesh(&arguments.mesh));
     let ((plc, _), mesh) = (plc?, mesh.map_err(Stop::input)?);
     let exactly = VerifyOptions {
         domain: match arguments.domain {

@@ -10,7 +10,6 @@ mod gave_up;
 mod invalid;
 mod names;
 
-pub use crate::plc::PlcError;
 pub use deletion::{DeletionRefused, Obstacle};
 pub use domain::DomainError;
 pub use gave_up::{GaveUp, NotFlatReason};
@@ -21,6 +20,7 @@ pub use names::PointKind;
 
 use crate::delaunay::DelaunayError;
 use crate::exchange::Plc;
+use crate::plc::PlcError;
 use std::fmt;
 
 /// Why there is no tetrahedralization.

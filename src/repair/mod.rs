@@ -148,7 +148,6 @@ pub fn repair_beside<'p>(
 }
 
 /// How many conflicts a refusal lists at most.
-#[doc(hidden)]
 pub const LISTED: usize = 8;
 
 /// Repairs contacts of different parts.

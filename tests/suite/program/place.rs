@@ -1,7 +1,8 @@
 //! A directory to run the program in, and what came of it.
 
+use std::io::Write;
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// A directory with an input file, and a program to run in it.
@@ -57,6 +58,26 @@ impl Place {
         Run {
             arguments: arguments.to_owned(),
             output,
+        }
+    }
+
+    /// The same with bytes on stdin.
+    pub fn run_with(&self, arguments: &str, stdin: &[u8]) -> Run {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_tetflip"))
+            .args(arguments.split_whitespace())
+            .current_dir(self.directory.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let mut pipe = child.stdin.take().expect("a pipe");
+        // A program that refuses its arguments need not read.
+        let _ = pipe.write_all(stdin);
+        drop(pipe);
+        Run {
+            arguments: arguments.to_owned(),
+            output: child.wait_with_output().expect("the program ends"),
         }
     }
 
