@@ -11,11 +11,18 @@ pub enum GaveUp {
     SegmentTooShort {
         /// The ends of the segment.
         segment: [VertexId; 2],
+        /// The vertex nearest to it.
+        nearest: Option<Nearest>,
     },
-    /// A segment would need too many Steiner points: usually another one runs along it at the distance of rounding.
+    /// A segment, or all together, would need too many Steiner points: usually vertices or other segments are as near
+    /// to one as rounding.
     TooManySteinerPoints {
         /// The ends of the segment.
         segment: [VertexId; 2],
+        /// The number of Steiner points by now.
+        points: usize,
+        /// The vertex nearest to the segment.
+        nearest: Option<Nearest>,
     },
     /// Two segments do not intersect, but come so close that a Steiner point on the one, rounded, lies on the other.
     SegmentsTooClose {
@@ -82,6 +89,25 @@ pub enum GaveUp {
     },
 }
 
+/// A vertex near to a segment.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Nearest {
+    /// The vertex, which is no end of the segment.
+    pub vertex: VertexId,
+    /// Its distance from the segment, up to rounding.
+    pub distance: f64,
+}
+
+impl Nearest {
+    fn text(self, names: Names) -> String {
+        let vertex = names.vertex(self.vertex);
+        format!(
+            ": the distance of vertex {vertex} from it is {:e}",
+            self.distance
+        )
+    }
+}
+
 /// What stopped the insertion of a polygon that is flat only to rounding.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum NotFlatReason {
@@ -103,15 +129,40 @@ pub enum NotFlatReason {
 }
 
 impl GaveUp {
+    /// The lists of facets in it.
+    pub(super) fn facets_mut(&mut self) -> Vec<&mut Vec<usize>> {
+        match self {
+            GaveUp::SegmentTooShort { .. }
+            | GaveUp::TooManySteinerPoints { .. }
+            | GaveUp::SegmentsTooClose { .. } => Vec::new(),
+            GaveUp::NotFlat { facets, reason } => match reason {
+                NotFlatReason::CrossedByPolygon { facets: others } => vec![facets, others],
+                _ => vec![facets],
+            },
+            GaveUp::Stuck { facets, .. }
+            | GaveUp::NotDelaunay { facets, .. }
+            | GaveUp::FlipOrder { facets, .. }
+            | GaveUp::Inverted { facets, .. }
+            | GaveUp::Displaced { facets, .. }
+            | GaveUp::Endless { facets, .. } => vec![facets],
+        }
+    }
+
     pub(super) fn text(&self, names: Names) -> String {
         match self {
-            GaveUp::SegmentTooShort { segment } => format!(
-                "segment {} cannot be divided any further",
-                names.edge(*segment)
+            GaveUp::SegmentTooShort { segment, nearest } => format!(
+                "segment {} cannot be divided any further{}",
+                names.edge(*segment),
+                nearest.map(|near| near.text(names)).unwrap_or_default()
             ),
-            GaveUp::TooManySteinerPoints { segment } => format!(
-                "segment {} needs too many Steiner points; probably another edge nearly overlaps it",
-                names.edge(*segment)
+            GaveUp::TooManySteinerPoints {
+                segment,
+                points,
+                nearest,
+            } => format!(
+                "{points} Steiner points are not enough for segment {} and others{}",
+                names.edge(*segment),
+                nearest.map(|near| near.text(names)).unwrap_or_default()
             ),
             GaveUp::SegmentsTooClose { segments: [a, b] } => format!(
                 "segments {} and {} come too close for rounded Steiner points",

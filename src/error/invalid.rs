@@ -43,6 +43,16 @@ pub enum InvalidPlc {
 }
 
 impl InvalidPlc {
+    /// The lists of facets in it.
+    pub(super) fn facets_mut(&mut self) -> Vec<&mut Vec<usize>> {
+        match self {
+            InvalidPlc::VertexOnSegment { .. } | InvalidPlc::SegmentsMeet { .. } => Vec::new(),
+            InvalidPlc::VertexOnPolygon { facets, .. }
+            | InvalidPlc::SegmentThroughPolygon { facets, .. } => vec![facets],
+            InvalidPlc::PolygonsIntersect { first, second } => vec![first, second],
+        }
+    }
+
     pub(super) fn text(&self, names: Names) -> String {
         match self {
             InvalidPlc::VertexOnSegment { segment, vertex } => format!(

@@ -12,7 +12,7 @@ mod names;
 
 pub use deletion::{DeletionRefused, Obstacle};
 pub use domain::DomainError;
-pub use gave_up::{GaveUp, NotFlatReason};
+pub use gave_up::{GaveUp, Nearest, NotFlatReason};
 pub use invalid::InvalidPlc;
 pub(crate) use names::Coordinates;
 use names::Names;
@@ -58,6 +58,19 @@ impl Failure {
             Failure::GaveUp(error) => format!("gave up: {}", error.text(names)),
             Failure::NoSuchPolygon(index) => format!("there is no polygon {index}"),
             Failure::Stopped => "the run was stopped".to_owned(),
+        }
+    }
+
+    /// Names the facets of the input that those of a repaired PLC come from ([`Plc::origins`]).
+    pub(crate) fn name_origins(&mut self, plc: &Plc) {
+        let lists = match self {
+            Failure::Invalid(error) => error.facets_mut(),
+            Failure::GaveUp(error) => error.facets_mut(),
+            // What names facets otherwise has names of the input.
+            _ => Vec::new(),
+        };
+        for facets in lists {
+            *facets = plc.of_input(facets);
         }
     }
 

@@ -31,6 +31,23 @@ pub struct Plc {
     pub marker_names: Vec<(i64, String)>,
 }
 
+impl Plc {
+    /// The facets of the input that some facets come from, sorted: the facets themselves, unless this PLC is a repaired
+    /// one.
+    pub(crate) fn of_input(&self, facets: &[usize]) -> Vec<usize> {
+        let mut of_input = match self.origins.is_empty() {
+            true => facets.to_vec(),
+            false => facets
+                .iter()
+                .flat_map(|&f| self.origins[f].iter().copied())
+                .collect(),
+        };
+        of_input.sort_unstable();
+        of_input.dedup();
+        of_input
+    }
+}
+
 /// A row of as many numbers for each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attributes {

@@ -2,8 +2,8 @@
 
 use crate::common::{plc_of_points, quiet};
 use proptest::prelude::*;
-use tetflip::cdt::{Cdt, Options, tetrahedralize};
-use tetflip::error::{Failure, InvalidPlc};
+use tetflip::cdt::{Cdt, MeshOptions, Options, SteinerChoice, tetrahedralize};
+use tetflip::error::{Failure, GaveUp, InvalidPlc};
 use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::{Facet, Plc, Segment};
 use tetflip::mesh::VertexId;
@@ -190,5 +190,50 @@ proptest! {
             }
         }
         mesh_and_verify(&plc);
+    }
+}
+
+/// A dome whose pole is a ring of vertices as near to each other as rounding: valid, but Steiner points at the pole
+/// would have to be as near. It ends soon, with an error that names the reason.
+#[test]
+fn vertices_as_near_as_rounding_are_named() {
+    const SPOKES: u32 = 11;
+    let mut points = Vec::new();
+    for i in 0..SPOKES {
+        let (t, angle) = (f64::from(i), -1.079 + 0.063466 * f64::from(i));
+        let rings = [
+            (2.69e-15, 43.93364334106445),
+            (1.4424 + 0.0022 * t, 45.4384 + 0.07 * t),
+            (2.94 + 0.008 * t, 46.26 + 0.13 * t),
+        ];
+        points.extend(rings.map(|(r, z)| [r * angle.cos(), r * angle.sin(), z]));
+    }
+    points.extend([[0.0, 0.0, 60.0], [9.0, 0.0, 40.0], [0.0, -9.0, 40.0]]);
+    let mut plc = plc_of_points(points);
+    let facet = |corners: [u32; 3]| Facet {
+        polygons: vec![corners.map(VertexId).to_vec()],
+        ..Facet::default()
+    };
+    for a in (0..SPOKES - 1).flat_map(|i| [3 * i, 3 * i + 1]) {
+        plc.facets
+            .extend([facet([a + 1, a, a + 3]), facet([a + 3, a + 4, a + 1])]);
+    }
+    assert!(tetflip::check::check(&plc, None).is_valid());
+    for steiner in [SteinerChoice::Rounded, SteinerChoice::Auto] {
+        let options = MeshOptions {
+            keep_hull: true,
+            steiner,
+            ..MeshOptions::default()
+        };
+        let error = tetflip::mesh(&plc, &options).expect_err("there is hardly an end");
+        assert!(!error.is_of_input());
+        let Failure::GaveUp(
+            GaveUp::SegmentTooShort { nearest, .. } | GaveUp::TooManySteinerPoints { nearest, .. },
+        ) = *error.failure
+        else {
+            panic!("{error}");
+        };
+        assert!(nearest.is_some_and(|near| near.distance < 1e-14), "{error}");
+        assert!(error.to_string().contains("from it is"), "{error}");
     }
 }

@@ -9,6 +9,7 @@
 //! Linear time, apart from the vertices that are tried.
 
 use crate::mesh::VertexId;
+use crate::predicate::coordinates::orient3d;
 use crate::predicate::{DoublePoints, PointStore};
 use rustc_hash::FxHashMap;
 
@@ -42,6 +43,8 @@ pub fn round(points: &DoublePoints, tets: &[[VertexId; 4]]) -> Rounding {
         coordinates: coordinates.clone(),
         nearest: &coordinates,
         tets,
+        moved: FxHashMap::default(),
+        time: 1,
     };
     let mut spoilt: Vec<usize> = rounded
         .iter()
@@ -60,14 +63,19 @@ pub fn round(points: &DoublePoints, tets: &[[VertexId; 4]]) -> Rounding {
                 }
             }
         }
+        // When each tetrahedron has been tried; it is not tried again until something around it has moved.
+        let mut tried = vec![0; spoilt.len()];
         let mut improved = true;
         while improved {
             improved = false;
-            for &t in &spoilt {
-                if !trial.is_positive(t)
-                    && trial.repair(tets[t].into_iter().filter(is_rounded), &stars)
-                {
-                    improved = true;
+            for (&t, tried) in spoilt.iter().zip(&mut tried) {
+                let vertices = || tets[t].into_iter().filter(is_rounded);
+                let around = vertices().flat_map(|v| &stars[&v]);
+                let mut corners = around.flat_map(|&t| tets[t]);
+                let is_new = *tried == 0 || corners.any(|v| trial.moved.get(&v) > Some(&*tried));
+                if is_new && !trial.is_positive(t) {
+                    *tried = trial.time;
+                    improved |= trial.repair(vertices(), &stars);
                 }
             }
         }
@@ -90,13 +98,16 @@ struct Trial<'a> {
     coordinates: Vec<[f64; 3]>,
     nearest: &'a [[f64; 3]],
     tets: &'a [[VertexId; 4]],
+    /// When vertices have been moved last.
+    moved: FxHashMap<VertexId, u64>,
+    /// The number of moves, and one.
+    time: u64,
 }
 
 impl Trial<'_> {
     fn is_positive(&self, t: usize) -> bool {
         let corners = self.tets[t].map(|v| self.coordinates[v.index()]);
-        let store = DoublePoints::new(corners.to_vec());
-        store.orient3d([0, 1, 2, 3].map(VertexId)).is_positive()
+        orient3d(corners).is_positive()
     }
 
     fn bad(&self, star: &[usize]) -> usize {
@@ -125,6 +136,8 @@ impl Trial<'_> {
         }
         if let Some((_, v, place)) = best {
             self.coordinates[v.index()] = place;
+            self.time += 1;
+            self.moved.insert(v, self.time);
         }
         best.is_some()
     }

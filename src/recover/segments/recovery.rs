@@ -13,7 +13,7 @@ use super::split::{self, Reference, Subsegment, split_parameter};
 use super::straight_walk::{Ahead, Crossed, look_ahead};
 use super::subsegments::Subsegments;
 use crate::delaunay::Delaunay;
-use crate::error::{Failure, GaveUp};
+use crate::error::Failure;
 use crate::mesh::{Incidence, TetId, VertexId};
 use crate::number::Parameter;
 use crate::predicate::GrowingStore;
@@ -24,6 +24,13 @@ use std::collections::BinaryHeap;
 /// No valid segment of ordinary input needs so many vertices. Edges that nearly overlap, an ulp apart all along, would
 /// need one every few ulps.
 pub(super) const MOST_VERTICES_PER_SEGMENT: usize = 1 << 14;
+
+/// How many Steiner points are too many for an input of n vertices. Long parallel edges may need a tenth of n² (those of
+/// a cylinder whose faces are flat only to rounding do), and few need more, where vertices are farther from each other
+/// than rounding; where they are not, there is hardly an end.
+fn most_points(n: usize) -> usize {
+    (1 << 12) + 32 * n + n.saturating_mul(n) / 4
+}
 
 /// How many tetrahedra the search for places of least loss may look at: so many, and so many for each Steiner point.
 const EFFORT: [usize; 2] = [1_000_000, 1500];
@@ -244,9 +251,11 @@ impl<'a, P: GrowingStore> SegmentRecovery<'a, P> {
         let ends = self.subsegments.ends(s);
         let count = self.subsegments.steiner_count();
         let vertices = self.subsegments.vertices_on(s);
-        if self.looked > EFFORT[0] + EFFORT[1] * count || vertices >= MOST_VERTICES_PER_SEGMENT {
-            let segment = ends;
-            return Err(GaveUp::TooManySteinerPoints { segment }.into());
+        if self.looked > EFFORT[0] + EFFORT[1] * count
+            || vertices >= MOST_VERTICES_PER_SEGMENT
+            || count >= most_points(self.subsegments.first_steiner())
+        {
+            return Err(self.too_many(ends));
         }
         let directed = self.subsegments.directed(s, [a, b]);
         let range = directed.map(|v| self.subsegments.parameter(s, v));

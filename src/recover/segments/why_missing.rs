@@ -2,8 +2,9 @@
 //! are too coarse to divide it any further. Exact.
 
 use super::recovery::SegmentRecovery;
-use crate::error::{Failure, GaveUp, InvalidPlc};
+use crate::error::{Failure, GaveUp, InvalidPlc, Nearest};
 use crate::mesh::VertexId;
+use crate::number::vector::{dot, minus, square};
 use crate::number::{Dyadic, Exact, Vec3};
 use crate::predicate::{GrowingStore, PointStore};
 
@@ -44,8 +45,41 @@ impl<P: GrowingStore> SegmentRecovery<'_, P> {
                 let segments = [segment, other];
                 InvalidPlc::SegmentsMeet { segments }.into()
             }
-            None => GaveUp::SegmentTooShort { segment }.into(),
+            None => {
+                let nearest = self.nearest(segment);
+                GaveUp::SegmentTooShort { segment, nearest }.into()
+            }
         }
+    }
+
+    /// What there is to say when there are too many Steiner points.
+    pub(super) fn too_many(&self, segment: [VertexId; 2]) -> Failure {
+        let points = self.subsegments.steiner_count();
+        let nearest = self.nearest(segment);
+        let too_many = GaveUp::TooManySteinerPoints {
+            segment,
+            points,
+            nearest,
+        };
+        too_many.into()
+    }
+
+    /// The vertex of the input nearest to a segment. Linear time, on the way out.
+    fn nearest(&self, segment: [VertexId; 2]) -> Option<Nearest> {
+        let [a, b] = segment.map(|v| self.points.rounded(v));
+        let along = minus(b, a);
+        let distance = |v: VertexId| {
+            let from = minus(self.points.rounded(v), a);
+            let t = (dot(from, along) / dot(along, along)).clamp(0.0, 1.0);
+            square(minus(from, along.map(|x| t * x))).sqrt()
+        };
+        let inputs = (0..self.subsegments.first_steiner()).map(VertexId::new);
+        let others = inputs.filter(|v| self.incidence.tet_at(*v).is_some() && !segment.contains(v));
+        let near = others.map(|vertex| Nearest {
+            vertex,
+            distance: distance(vertex),
+        });
+        near.min_by(|x, y| x.distance.total_cmp(&y.distance))
     }
 }
 
