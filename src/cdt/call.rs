@@ -1,16 +1,16 @@
 //! One call for users: a PLC and options in; a mesh with a report and notes out, or an error that says who is to blame.
 
-use super::early_check::EarlyCheck;
+use super::early_check::{EarlyCheck, Verdict};
+use super::mesh_error::MeshError;
 use super::{Options, run};
-use crate::check::{Findings, check};
-use crate::error::Failure;
+use crate::error::{DomainError, Failure};
 use crate::exchange::{ExportedMesh, Note, NoteCode, Plc};
 use crate::mesh::VertexId;
 use crate::plc::VertexName;
 use crate::predicate::Steiner;
 use crate::recover::polygons::{FlipOrder, Insertion};
+use crate::recover::segments::GoOn;
 use crate::report::Report;
-use std::fmt;
 
 /// What the user chooses for [`mesh`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -27,6 +27,8 @@ pub struct MeshOptions {
     pub steiner: SteinerChoice,
     /// Leave vertices out that no tetrahedron has, and number the others anew.
     pub drop_unused: bool,
+    /// Repair nothing: refuse inputs of which parts intersect, or are degenerate, in ways that [`crate::repair`] mends.
+    pub strict: bool,
 }
 
 /// How Steiner points are represented.
@@ -43,17 +45,21 @@ pub enum SteinerChoice {
 
 impl Default for MeshOptions {
     fn default() -> MeshOptions {
-        MeshOptions {
-            insertion: Insertion::Flip(FlipOrder::FILTERED),
-            keep_hull: false,
-            merge_coplanar: true,
-            steiner: SteinerChoice::Auto,
-            drop_unused: false,
-        }
+        MeshOptions::DEFAULT
     }
 }
 
 impl MeshOptions {
+    /// What is usual.
+    pub const DEFAULT: MeshOptions = MeshOptions {
+        insertion: Insertion::Flip(FlipOrder::FILTERED),
+        keep_hull: false,
+        merge_coplanar: true,
+        steiner: SteinerChoice::Auto,
+        drop_unused: false,
+        strict: false,
+    };
+
     fn with(&self, steiner: Steiner) -> Options {
         Options {
             insertion: self.insertion,
@@ -80,71 +86,12 @@ impl Meshed {
     }
 }
 
-/// Why [`mesh`] made no mesh. It displays with vertices, facets and points as the input numbers them.
-#[derive(Clone, Debug)]
-pub struct MeshError {
-    /// What stopped the run.
-    pub failure: Box<Failure>,
-    /// The first things that [`check`] finds wrong with the input, if it was asked and found any. Then these are the
-    /// reason, whatever the algorithm ran into.
-    pub findings: Option<Box<Findings>>,
-    /// The report as far as the run came.
-    pub report: Box<Report>,
-    message: String,
-}
-
-impl MeshError {
-    /// How many findings are listed.
-    const LISTED: usize = 8;
-
-    fn new(plc: &Plc, failure: Failure, report: Report) -> MeshError {
-        MeshError {
-            message: failure.describe(plc),
-            failure: Box::new(failure),
-            findings: None,
-            report: Box::new(report),
-        }
-    }
-
-    /// An error of an input that is not valid: whatever the algorithm ran into, the input is to blame, and the check
-    /// names facets more closely.
-    fn of_findings(plc: &Plc, failure: Failure, findings: Findings, report: Report) -> MeshError {
-        let message = match &failure {
-            Failure::Plc(_) => {
-                let mut lines = vec![failure.describe(plc)];
-                lines.extend(listed(plc, &findings, &lines[0]));
-                lines.join("\n")
-            }
-            // What the algorithm ran into first may depend on when the check was done.
-            _ => format!("invalid PLC: {}", listed(plc, &findings, "").join("\n")),
-        };
-        MeshError {
-            failure: Box::new(failure),
-            findings: Some(Box::new(findings)),
-            report: Box::new(report),
-            message,
-        }
-    }
-
-    /// Whether the input is to blame, and not the algorithm.
-    pub fn is_of_input(&self) -> bool {
-        self.findings.is_some() || self.failure.is_of_input()
-    }
-}
-
-impl fmt::Display for MeshError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for MeshError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&*self.failure)
-    }
-}
-
 /// The CDT of a PLC: what its facets enclose, without the parts that hold a hole point.
+///
+/// An input of which parts intersect is repaired where that is possible exactly ([`crate::repair`], with notes),
+/// unless it is to be [strict](MeshOptions::strict); otherwise it is refused. It is looked at closely only where a
+/// run fails or needs many Steiner points: a run that succeeds has found out on its way that the input is valid, up
+/// to the rounding of Steiner points.
 ///
 /// Steiner points on segments are doubles if that has a solution, otherwise exact ([`SteinerChoice::Auto`], with a
 /// note). Before that is tried, and before anything is said of a failure, the input is checked for intersections, so
@@ -185,50 +132,103 @@ pub fn mesh_with_progress(
     options: &MeshOptions,
     progress: &mut dyn FnMut(usize),
 ) -> Result<Meshed, MeshError> {
-    let early = EarlyCheck::new(plc, MeshError::LISTED);
-    let go_on = |needed: usize| early.go_on(needed);
-    let mut run = |steiner: Steiner| {
-        let mut report = Report::default();
-        let result = run(plc, &options.with(steiner), &mut report, progress, &go_on);
-        (result, report)
-    };
-    let first = match options.steiner {
-        SteinerChoice::Auto | SteinerChoice::Rounded => Steiner::Rounded,
-        SteinerChoice::Exact => Steiner::Exact,
-    };
-    let (mut result, mut report) = run(first);
+    let early = EarlyCheck::new(plc, options);
+    let (result, report) = attempt(plc, options, first_choice(options), progress, &|needed| {
+        early.go_on(needed)
+    });
+    // What is wrong with the input comes before anything that the algorithm can say.
     if let Err(failure) = &result
-        && may_be_intersections(failure)
+        && may_be_of_input(failure)
     {
-        // Where parts of the input intersect, exact Steiner points cannot help either.
-        let early = early.findings();
-        let findings = early.unwrap_or_else(|| check(plc, Some(MeshError::LISTED)));
-        if !findings.is_valid() {
-            let failure = failure.clone();
-            return Err(MeshError::of_findings(plc, failure, findings, report));
+        match early.verdict() {
+            Verdict::Valid => {}
+            Verdict::Repaired(repaired, notes) => {
+                return mesh_repaired(plc, &repaired, notes, options, progress);
+            }
+            Verdict::Wrong(findings) => {
+                let failure = failure.clone();
+                return Err(MeshError::of_findings(plc, failure, findings, report));
+            }
         }
     }
+    finish(plc, (result, report), options, progress)
+}
+
+/// How a run ends, and its report.
+type Outcome = (Result<ExportedMesh, Failure>, Report);
+
+/// One run.
+fn attempt(
+    plc: &Plc,
+    options: &MeshOptions,
+    steiner: Steiner,
+    progress: &mut dyn FnMut(usize),
+    go_on: &GoOn<'_>,
+) -> Outcome {
+    let mut report = Report::default();
+    let result = run(plc, &options.with(steiner), &mut report, progress, go_on);
+    (result, report)
+}
+
+/// How Steiner points are represented at first.
+fn first_choice(options: &MeshOptions) -> Steiner {
+    match options.steiner {
+        SteinerChoice::Auto | SteinerChoice::Rounded => Steiner::Rounded,
+        SteinerChoice::Exact => Steiner::Exact,
+    }
+}
+
+/// What comes of a run on a valid PLC, which is repeated with exact Steiner points if that is necessary.
+fn finish(
+    plc: &Plc,
+    (mut result, mut report): Outcome,
+    options: &MeshOptions,
+    progress: &mut dyn FnMut(usize),
+) -> Result<Meshed, MeshError> {
     if options.steiner == SteinerChoice::Auto
         && let Some(why) = needs_exact(plc, &result, &report)
     {
-        let (again, again_report) = run(Steiner::Exact);
+        let (again, again_report) = attempt(plc, options, Steiner::Exact, progress, &|_| true);
         if again.is_ok() || result.is_err() {
+            let how = if again.is_ok() { "made" } else { "tried" };
             (result, report) = (again, again_report);
-            let text = format!("with rounded Steiner points: {why}; made with exact ones");
-            report
-                .notes
-                .insert(0, Note::new(NoteCode::ExactSteiner, 1, text));
+            let text = format!("with rounded Steiner points: {why}; {how} with exact ones");
+            let note = Note::new(NoteCode::ExactSteiner, 1, text);
+            report.notes.insert(0, note);
         }
     }
     match result {
         Ok(mut mesh) => {
-            report
-                .notes
-                .extend(number(plc, options.drop_unused, &mut mesh));
+            let note = number(plc, options.drop_unused, &mut mesh);
+            report.notes.extend(note);
             Ok(Meshed { mesh, report })
         }
         Err(failure) => Err(MeshError::new(plc, failure, report)),
     }
+}
+
+/// The mesh of a PLC that another one was repaired to, with notes.
+fn mesh_repaired(
+    plc: &Plc,
+    repaired: &Plc,
+    notes: Vec<Note>,
+    options: &MeshOptions,
+    progress: &mut dyn FnMut(usize),
+) -> Result<Meshed, MeshError> {
+    let outcome = attempt(repaired, options, first_choice(options), progress, &|_| {
+        true
+    });
+    let mut result = finish(repaired, outcome, options, progress);
+    let report = match &mut result {
+        Ok(Meshed { mesh, report }) => {
+            mesh.face_table.add_markers(&plc.facets);
+            report
+        }
+        Err(error) => &mut *error.report,
+    };
+    report.input_facets = plc.facets.len();
+    report.notes.splice(0..0, notes);
+    result
 }
 
 /// Numbers the vertices of the mesh: those of the input first, in their order. Notes if some have other numbers than in
@@ -275,26 +275,13 @@ fn needs_exact(
     }
 }
 
-/// Whether facets that intersect can be the reason.
-fn may_be_intersections(failure: &Failure) -> bool {
+/// Whether facets that intersect, or are degenerate, can be the reason.
+fn may_be_of_input(failure: &Failure) -> bool {
     match failure {
         Failure::Plc(_) | Failure::Invalid(_) | Failure::GaveUp(_) | Failure::Stopped => true,
-        // What is inside is asked only where polygons meet like those of a PLC.
+        // A surface may be closed as soon as its edges are divided where vertices lie on them.
+        Failure::Domain(DomainError::Open { .. } | DomainError::NothingEnclosed) => true,
+        // All else is asked only where polygons meet like those of a PLC.
         Failure::Domain(_) | Failure::Delaunay(_) | Failure::NoSuchPolygon(_) => false,
     }
-}
-
-/// What was found, one line each, without what has been `told` already.
-fn listed(plc: &Plc, findings: &Findings, told: &str) -> Vec<String> {
-    let errors = findings.errors.iter().map(ToString::to_string);
-    let conflicts = findings.conflicts.iter().map(|c| c.describe(plc));
-    let mut lines: Vec<String> = errors
-        .chain(conflicts)
-        .filter(|line| told.is_empty() || !told.ends_with(line))
-        .collect();
-    if lines.len() > MeshError::LISTED || findings.stopped {
-        lines.truncate(MeshError::LISTED);
-        lines.push("…".to_owned());
-    }
-    lines
 }

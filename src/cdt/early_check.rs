@@ -2,11 +2,14 @@
 //! points are inserted between them, and most of the time would be spent on what fails in the end.
 //!
 //! Checking takes about as long as meshing a surface that needs no Steiner points. So it begins only when many are
-//! needed, on another thread if there is one, and the run ends as soon as the input is known to be invalid. A valid
-//! input is not held up, and what comes of it does not depend on any of this.
+//! needed, on another thread if there is one, and the run ends as soon as something is found that cannot be repaired. A
+//! valid input is not held up, and what comes of it does not depend on any of this.
 
+use super::MeshOptions;
 use crate::check::{Findings, check};
-use crate::exchange::Plc;
+use crate::exchange::{Note, Plc};
+use crate::repair::{LISTED, RepairOptions, Repaired, repair};
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -14,10 +17,51 @@ use std::sync::{Arc, Mutex, PoisonError};
 const FEW: usize = 64;
 const PER_FACET: f64 = 1.0 / 32.0;
 
+/// What a look at an input comes to.
+#[derive(Clone, Debug)]
+pub(super) enum Verdict {
+    /// It is valid.
+    Valid,
+    /// It was not; this is, and the notes tell what has been repaired.
+    Repaired(Box<Plc>, Vec<Note>),
+    /// It is not valid, and may not or cannot be repaired.
+    Wrong(Box<Findings>),
+}
+
+impl Verdict {
+    /// Looks at an input, and repairs it if that is necessary and allowed. The cost is that of [`check`] or, if it can
+    /// be repaired, a few times that.
+    pub fn of(plc: &Plc, options: &MeshOptions) -> Verdict {
+        if options.strict {
+            let findings = check(plc, Some(LISTED));
+            return match findings.is_valid() {
+                true => Verdict::Valid,
+                false => Verdict::Wrong(Box::new(findings)),
+            };
+        }
+        let options = RepairOptions {
+            strict: false,
+            merge_coplanar: options.merge_coplanar,
+        };
+        match repair(plc, options) {
+            Ok(Repaired { plc, notes }) => match plc {
+                Cow::Borrowed(_) => Verdict::Valid,
+                Cow::Owned(plc) => Verdict::Repaired(Box::new(plc), notes),
+            },
+            Err(findings) => Verdict::Wrong(findings),
+        }
+    }
+
+    /// Whether there is something that no repair mends.
+    fn is_hopeless(&self) -> bool {
+        matches!(self, Verdict::Wrong(findings) if !findings.is_repairable())
+    }
+}
+
 /// A check that may begin.
 pub(super) struct EarlyCheck<'a> {
     plc: &'a Plc,
-    most: usize,
+    options: &'a MeshOptions,
     begun: AtomicBool,
     state: Arc<State>,
 }
@@ -26,16 +70,16 @@ pub(super) struct EarlyCheck<'a> {
 struct State {
     /// Nobody waits for the result any more.
     over: AtomicBool,
-    invalid: AtomicBool,
-    findings: Mutex<Option<Findings>>,
+    hopeless: AtomicBool,
+    verdict: Mutex<Option<Verdict>>,
 }
 
 impl<'a> EarlyCheck<'a> {
-    /// A check that looks for `most` intersections.
-    pub fn new(plc: &'a Plc, most: usize) -> EarlyCheck<'a> {
+    /// A check that has not begun.
+    pub fn new(plc: &'a Plc, options: &'a MeshOptions) -> EarlyCheck<'a> {
         EarlyCheck {
             plc,
-            most,
+            options,
             begun: AtomicBool::new(false),
             state: Arc::default(),
         }
@@ -47,36 +91,34 @@ impl<'a> EarlyCheck<'a> {
         if needed >= many && !self.begun.swap(true, Ordering::Relaxed) {
             self.begin();
         }
-        !self.state.invalid.load(Ordering::Acquire)
+        !self.state.hopeless.load(Ordering::Acquire)
     }
 
     fn begin(&self) {
         if rayon::current_num_threads() < 2 {
             return;
         }
-        let (plc, most) = (self.plc.clone(), self.most);
+        let (plc, options) = (self.plc.clone(), *self.options);
         let state = Arc::clone(&self.state);
         rayon::spawn(move || {
             if state.over.load(Ordering::Relaxed) {
                 return;
             }
-            let findings = check(&plc, Some(most));
-            if !findings.is_valid() {
-                *state
-                    .findings
-                    .lock()
-                    .unwrap_or_else(PoisonError::into_inner) = Some(findings);
-                state.invalid.store(true, Ordering::Release);
+            let verdict = Verdict::of(&plc, &options);
+            let is_hopeless = verdict.is_hopeless();
+            *state.verdict.lock().unwrap_or_else(PoisonError::into_inner) = Some(verdict);
+            if is_hopeless {
+                state.hopeless.store(true, Ordering::Release);
             }
         });
     }
 
-    /// What makes the input invalid, if it was found.
-    pub fn findings(&self) -> Option<Findings> {
-        let mut findings = self.state.findings.lock();
-        findings
-            .as_mut()
-            .map_or_else(|poisoned| poisoned.get_mut().take(), |found| found.take())
+    /// The verdict. If it is not there yet, it is found here: to wait for another thread may be to wait for one that
+    /// waits for this one.
+    pub fn verdict(self) -> Verdict {
+        let verdict = self.state.verdict.lock();
+        let found = verdict.unwrap_or_else(PoisonError::into_inner).take();
+        found.unwrap_or_else(|| Verdict::of(self.plc, self.options))
     }
 }
 
@@ -119,14 +161,18 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
         pool.expect("two threads").install(|| {
             let plc = triangles(true);
-            let early = EarlyCheck::new(&plc, 3);
+            let options = MeshOptions::default();
+            let early = EarlyCheck::new(&plc, &options);
             assert!(early.go_on(10) && !early.begun.load(Ordering::Relaxed));
             let start = Instant::now();
             while early.go_on(1000) {
                 assert!(start.elapsed() < Duration::from_secs(60), "it never ends");
                 std::thread::sleep(Duration::from_millis(1));
             }
-            let findings = early.findings().expect("a reason");
+            let verdict = early.verdict();
+            let Verdict::Wrong(findings) = verdict else {
+                panic!("{verdict:?}");
+            };
             assert_eq!(findings.conflicts.len(), 1);
         });
     }
@@ -134,11 +180,13 @@ mod tests {
     #[test]
     fn a_run_on_a_valid_input_goes_on() {
         let plc = triangles(false);
-        let early = EarlyCheck::new(&plc, 3);
+        let options = MeshOptions::default();
+        let early = EarlyCheck::new(&plc, &options);
         for _ in 0..50 {
             assert!(early.go_on(1000));
             std::thread::sleep(Duration::from_millis(1));
         }
-        assert!(early.findings().is_none());
+        assert!(early.begun.load(Ordering::Relaxed));
+        assert!(matches!(early.verdict(), Verdict::Valid));
     }
 }

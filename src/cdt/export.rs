@@ -84,7 +84,7 @@ impl Cdt {
             report.spoilt_by_rounding = rounding.spoilt;
             report.notes.extend(spoilt(&report.spoilt_by_rounding, plc));
             report.output_regions = regions.count as usize;
-            let (faces, table) = self.faces(&repair, &walls, &regions);
+            let (faces, table) = self.faces(plc, &repair, &walls, &regions);
             if !keep_hull {
                 report.notes.extend(self.facets_outside(plc, &table));
             }
@@ -213,6 +213,7 @@ impl Cdt {
     /// in ascending order.
     fn faces(
         &self,
+        plc: &Plc,
         written: &Repair<DoublePoints>,
         walls: &SimplexIndex<2>,
         regions: &Regions,
@@ -269,7 +270,8 @@ impl Cdt {
         let table = FaceTable {
             sides: faces.iter().map(|f| f.2).collect(),
             polygons: faces.iter().map(|f| f.3).collect(),
-            facets: polygons.iter().map(|f| f.facets.clone()).collect(),
+            facets: polygons.iter().map(|f| plc.of_input(&f.facets)).collect(),
+            markers: Vec::new(),
         };
         (exported, table)
     }
@@ -289,18 +291,20 @@ impl Cdt {
         for &polygon in &table.polygons {
             written[polygon as usize] = true;
         }
-        let outside =
-            (0..self.complex.polygons.len()).filter(|&f| !written[f + 1] && self.is_inserted(f));
-        let mut facets: Vec<usize> = outside
-            .flat_map(|f| &self.complex.polygons[f].facets)
-            .copied()
-            .collect();
-        facets.sort_unstable();
-        let names: Vec<String> = facets
-            .iter()
-            .take(4)
-            .map(|&f| FacetName::new(plc, f).to_string())
-            .collect();
+        // Of a facet that a repair has divided some pieces may be written.
+        let of = |wanted: bool| {
+            let polygons = (0..self.complex.polygons.len()).filter(|&f| self.is_inserted(f));
+            let polygons = polygons.filter(|&f| written[f + 1] == wanted);
+            let facets = polygons.flat_map(|f| &self.complex.polygons[f].facets);
+            plc.of_input(&facets.copied().collect::<Vec<_>>())
+        };
+        let mut facets = of(false);
+        if !plc.origins.is_empty() && !facets.is_empty() {
+            let written = of(true);
+            facets.retain(|f| written.binary_search(f).is_err());
+        }
+        let named = FacetName::of_input(plc, &facets[..facets.len().min(Note::LISTED)]);
+        let names: Vec<String> = named.iter().take(4).map(ToString::to_string).collect();
         let text = match facets.len() {
             0 => return None,
             1 => format!("{} is outside of the domain and left out", names[0]),
@@ -313,7 +317,7 @@ impl Cdt {
                 names.join(", ")
             ),
         };
-        let numbers = facets.iter().map(|&f| FacetName::new(plc, f).number);
+        let numbers = named.iter().map(|name| name.number);
         Some(Note::new(NoteCode::FacetsOutside, facets.len(), text).on_facets(numbers))
     }
 

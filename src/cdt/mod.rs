@@ -9,9 +9,11 @@ mod early_check;
 mod export;
 mod inside;
 mod interpolation;
+mod mesh_error;
 mod open;
 
-pub use call::{MeshError, MeshOptions, Meshed, SteinerChoice, mesh, mesh_with_progress};
+pub use call::{MeshOptions, Meshed, SteinerChoice, mesh, mesh_with_progress};
+pub use mesh_error::MeshError;
 
 use crate::clock::TaskSeconds;
 use crate::delaunay::{delaunay, delaunay_by};

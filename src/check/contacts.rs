@@ -5,6 +5,7 @@ use super::findings::{Conflict, Findings};
 use super::parts::Parts;
 use super::rank;
 use super::search::{Face, Search};
+use super::tree::{Cell, Simplices};
 use crate::exchange::Plc;
 use crate::mesh::{TetMesh, VertexId};
 use rustc_hash::FxHashSet;
@@ -22,6 +23,10 @@ pub(crate) struct Contacts {
     pub on_triangles: Vec<(u32, VertexId)>,
 }
 
+/// So many times as many simplices as there are, those of all cells together, are looked at by one thread at first: where
+/// many parts cross, a few are found at once.
+const ALONE: usize = 4;
+
 /// What one thread has found.
 #[derive(Default)]
 struct Found {
@@ -30,58 +35,92 @@ struct Found {
     on_triangles: FxHashSet<(u32, VertexId)>,
 }
 
-/// All contacts of the parts of a PLC; `None` as soon as there is one that needs a new vertex. With `merging`, edges
-/// that merging coplanar facets drops may cross others.
+impl Found {
+    fn add(&mut self, more: Found) {
+        self.pairs.extend(more.pairs);
+        self.on_edges.extend(more.on_edges);
+        self.on_triangles.extend(more.on_triangles);
+    }
+
+    /// Adds two simplices that touch.
+    fn add_contact(&mut self, search: &Search, [i, j]: [usize; 2]) {
+        let faces = [search.face(i), search.face(j)];
+        let _ = search.pairs_of_owners(faces, &mut |pair| {
+            self.pairs.insert(pair);
+            ControlFlow::Continue(())
+        });
+        match faces {
+            [Face::Vertex(v), Face::Edge(e)] => {
+                let edge = &search.parts.edges[e];
+                let owners = &search.parts.edge_owners[edge.owners.clone()];
+                if owners.iter().any(|owner| owner.declared) {
+                    self.on_edges.insert((edge.ends, v));
+                }
+            }
+            [Face::Vertex(v), Face::Triangle(part)] => {
+                self.on_triangles.insert((part, v));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// All contacts of the parts of a PLC or, if there are any that need a new vertex, the first `most` pairs of parts that
+/// have such, sorted. With `merging`, edges that merging coplanar facets drops may cross others.
 ///
 /// With a tetrahedralization of all vertices, only what it does not have is looked at closely, which is much faster.
 pub(crate) fn contacts(
     plc: &Plc,
     parts: &Parts,
     merging: bool,
+    most: usize,
     mesh: Option<&TetMesh>,
-) -> Option<Contacts> {
+) -> Result<Contacts, Vec<[u32; 2]>> {
     let search = Search::new(plc, parts, merging, mesh);
-    let crossing = AtomicBool::new(false);
+    let simplices = search.simplices();
+    let mut cells = vec![simplices.everything()];
     let mut all = Found::default();
     let _ = search.equal_simplices(&mut |pair| {
         all.pairs.insert(pair);
         ControlFlow::Continue(())
     });
+    let mut crossing = Crossing {
+        search: &search,
+        most,
+        pairs: FxHashSet::default(),
+    };
+    let mut left = ALONE * cells[0].list.len();
+    while let Some(next) = cells.last().map(|cell| cell.list.len())
+        && next <= left
+    {
+        left -= next;
+        let visit = &mut |i: usize, j: usize| match search.touch(i, j) {
+            true => crossing.add([i, j], &mut all),
+            false => ControlFlow::Continue(()),
+        };
+        if simplices.advance(&mut cells, visit).is_break() {
+            break;
+        }
+    }
+    if !crossing.pairs.is_empty() {
+        crossing.search_in(&simplices, cells);
+        return Err(crossing.sorted());
+    }
+    // The rest by all threads. Which crossing one of them finds first is a matter of luck, so it is not told.
+    let crosses = AtomicBool::new(false);
     let visit = |i: usize, j: usize, found: &mut Found| {
-        if crossing.load(Ordering::Relaxed) || !search.touch(i, j) {
+        if crosses.load(Ordering::Relaxed) || !search.touch(i, j) {
             return;
         }
-        if search.needs_vertex(i, j) {
-            crossing.store(true, Ordering::Relaxed);
-            return;
-        }
-        let faces = [search.face(i), search.face(j)];
-        let _ = search.pairs_of_owners(faces, &mut |pair| {
-            found.pairs.insert(pair);
-            ControlFlow::Continue(())
-        });
-        match faces {
-            [Face::Vertex(v), Face::Edge(e)] => {
-                let edge = &parts.edges[e];
-                let owners = &parts.edge_owners[edge.owners.clone()];
-                if owners.iter().any(|owner| owner.declared) {
-                    found.on_edges.insert((edge.ends, v));
-                }
-            }
-            [Face::Vertex(v), Face::Triangle(part)] => {
-                found.on_triangles.insert((part, v));
-            }
-            _ => {}
+        match search.needs_vertex(i, j) {
+            true => crosses.store(true, Ordering::Relaxed),
+            false => found.add_contact(&search, [i, j]),
         }
     };
-    let join = |found: &mut Found, more: Found| {
-        found.pairs.extend(more.pairs);
-        found.on_edges.extend(more.on_edges);
-        found.on_triangles.extend(more.on_triangles);
-    };
-    join(&mut all, search.simplices().collect(&visit, &join));
-    if crossing.into_inner() {
-        return None;
+    all.add(simplices.collect(cells.clone(), &visit, &Found::add));
+    if crosses.into_inner() {
+        crossing.search_in(&simplices, cells);
+        return Err(crossing.sorted());
     }
     let mut contacts = Contacts {
         pairs: all.pairs.into_iter().collect(),
@@ -91,37 +130,82 @@ pub(crate) fn contacts(
     contacts.pairs.sort_unstable();
     contacts.on_edges.sort_unstable();
     contacts.on_triangles.sort_unstable();
-    Some(contacts)
+    Ok(contacts)
 }
 
-/// The first `most` pairs of parts that intersect in a way that needs a new vertex, with everything else that the check
-/// says. These are found where [`contacts`] gives up.
-pub(crate) fn crossings(plc: &Plc, merging: bool, most: usize) -> Findings {
-    let parts = Parts::new(plc);
-    let search = Search::new(plc, &parts, merging, None);
-    let mut pairs: FxHashSet<[u32; 2]> = FxHashSet::default();
-    let stopped = search.simplices().pairs(&mut |i, j| {
-        if !search.touch(i, j) || !search.needs_vertex(i, j) {
-            return ControlFlow::Continue(());
+/// Pairs of parts that intersect in a way that needs a new vertex.
+struct Crossing<'s, 'p> {
+    search: &'s Search<'p>,
+    most: usize,
+    pairs: FxHashSet<[u32; 2]>,
+}
+
+impl Crossing<'_, '_> {
+    /// Adds two simplices that touch to the crossings or to the other contacts; whether to go on.
+    fn add(&mut self, [i, j]: [usize; 2], found: &mut Found) -> ControlFlow<()> {
+        match self.search.needs_vertex(i, j) {
+            true => self.add_crossing([i, j]),
+            false => {
+                found.add_contact(self.search, [i, j]);
+                ControlFlow::Continue(())
+            }
         }
+    }
+
+    fn add_crossing(&mut self, [i, j]: [usize; 2]) -> ControlFlow<()> {
+        let Crossing {
+            search,
+            most,
+            pairs,
+        } = self;
         search.pairs_of_owners([search.face(i), search.face(j)], &mut |pair| {
-            pairs.insert(pair);
-            match pairs.len() < most {
+            if pairs.len() < *most {
+                pairs.insert(pair);
+            }
+            match pairs.len() < *most {
                 true => ControlFlow::Continue(()),
                 false => ControlFlow::Break(()),
             }
         })
-    });
-    let mut pairs: Vec<_> = pairs.into_iter().collect();
-    pairs.sort_unstable();
-    let conflict = |[f, g]: [u32; 2]| Conflict {
+    }
+
+    /// Looks for more, one after the other.
+    fn search_in(&mut self, simplices: &Simplices, mut cells: Vec<Cell>) {
+        let search = self.search;
+        let mut found = ControlFlow::Continue(());
+        while self.pairs.len() < self.most && found.is_continue() && !cells.is_empty() {
+            found = simplices.advance(&mut cells, &mut |i, j| match search.touch(i, j)
+                && search.needs_vertex(i, j)
+            {
+                true => self.add_crossing([i, j]),
+                false => ControlFlow::Continue(()),
+            });
+        }
+    }
+
+    fn sorted(self) -> Vec<[u32; 2]> {
+        let mut pairs: Vec<_> = self.pairs.into_iter().collect();
+        pairs.sort_unstable();
+        pairs
+    }
+}
+
+/// What the check says of pairs of parts that intersect in a way that needs a new vertex, of which `stopped` tells that
+/// there may be more.
+pub(crate) fn crossing_findings(
+    plc: &Plc,
+    parts: &Parts,
+    pairs: &[[u32; 2]],
+    stopped: bool,
+) -> Findings {
+    let conflict = |&[f, g]: &[u32; 2]| Conflict {
         repairable: false,
-        ..rank::conflict(&plc.vertices, &parts, [f as usize, g as usize])
+        ..rank::conflict(&plc.vertices, parts, [f as usize, g as usize])
     };
     Findings {
-        conflicts: pairs.into_iter().map(conflict).collect(),
-        stopped: stopped.is_break(),
-        notes: super::notes(&parts),
-        errors: parts.errors,
+        conflicts: pairs.iter().map(conflict).collect(),
+        stopped,
+        notes: super::notes(parts),
+        errors: parts.errors.clone(),
     }
 }

@@ -45,7 +45,7 @@ mod shared;
 mod tree;
 mod triangulate;
 
-pub(crate) use contacts::{Contacts, contacts, crossings};
+pub(crate) use contacts::{Contacts, contacts, crossing_findings};
 pub use findings::{Conflict, Findings, Kind, Notes, Part};
 pub(crate) use parts::Parts;
 pub(crate) use triangulate::triangulate;
@@ -127,7 +127,8 @@ fn all_pairs(search: &Search) -> Vec<[u32; 2]> {
         }
     };
     let join = |found: &mut FxHashSet<[u32; 2]>, more| found.extend(more);
-    found.extend(search.simplices().collect(&visit, &join));
+    let simplices = search.simplices();
+    found.extend(simplices.collect(vec![simplices.everything()], &visit, &join));
     sorted(found)
 }
 

@@ -1,22 +1,34 @@
 //! The search of [`super::tree`] by all threads.
 
-use super::tree::{Bounds, DEEPEST, EVERYTHING, Simplices, Step};
+use super::tree::{Bounds, Cell, Simplices, Step};
+use rayon::prelude::*;
 use std::ops::ControlFlow;
 
 /// Cells with fewer simplices are one thread's work.
 const SHARED: usize = 1 << 12;
 
 impl Simplices<'_> {
-    /// Visits the pairs of [`Simplices::pairs`] by all threads: each collects what `visit` makes of some of the pairs,
-    /// and `join` joins two such collections. Which pairs are visited does not depend on the number of threads; what is
-    /// collected must not depend on their order.
+    /// Visits the pairs of some cells by all threads: each collects what `visit` makes of some of the pairs, and `join`
+    /// joins two such collections. Which pairs are visited does not depend on the number of threads; what is collected
+    /// must not depend on their order.
     pub fn collect<T: Default + Send>(
         &self,
+        cells: Vec<Cell>,
         visit: &(dyn Fn(usize, usize, &mut T) + Sync),
         join: &(dyn Fn(&mut T, T) + Sync),
     ) -> T {
-        let all: Vec<u32> = (0..self.corners.len()).map(|i| i as u32).collect();
-        self.divide_shared(&EVERYTHING, all, DEEPEST, visit, join)
+        let cells = cells.into_par_iter();
+        let found = cells.map(
+            |Cell {
+                 bounds,
+                 list,
+                 depth,
+             }| { self.divide_shared(&bounds, list, depth, visit, join) },
+        );
+        found.reduce(T::default, |mut found, more| {
+            join(&mut found, more);
+            found
+        })
     }
 
     fn divide_shared<T: Default + Send>(

@@ -60,6 +60,14 @@ pub(super) const EVERYTHING: Bounds = Bounds {
     high: [f64::INFINITY; 3],
 };
 
+/// A cell that is still to be divided, with its simplices.
+#[derive(Clone)]
+pub(super) struct Cell {
+    pub bounds: Bounds,
+    pub list: Vec<u32>,
+    pub depth: usize,
+}
+
 /// What becomes of the simplices of a cell.
 pub(super) enum Step {
     /// No pair of them is wanted.
@@ -118,8 +126,42 @@ impl<'a> Simplices<'a> {
     /// Visits all pairs that have no common vertex and may have a common point: vertices with edges and triangles,
     /// edges with edges and triangles. Some pairs are visited more than once.
     pub fn pairs(&self, visit: Visit) -> ControlFlow<()> {
-        let all: Vec<u32> = (0..self.corners.len()).map(|i| i as u32).collect();
-        self.divide(&EVERYTHING, all, DEEPEST, visit)
+        let Cell {
+            bounds,
+            list,
+            depth,
+        } = self.everything();
+        self.divide(&bounds, list, depth, visit)
+    }
+
+    /// All simplices.
+    pub fn everything(&self) -> Cell {
+        Cell {
+            bounds: EVERYTHING,
+            list: (0..self.corners.len()).map(|i| i as u32).collect(),
+            depth: DEEPEST,
+        }
+    }
+
+    /// A part of the work of [`Simplices::pairs`] on the last of some cells: visits its pairs, or puts its halves into
+    /// its place. Until no cell is left, it visits the same pairs in the same order.
+    pub fn advance(&self, cells: &mut Vec<Cell>, visit: Visit) -> ControlFlow<()> {
+        let Some(cell) = cells.pop() else {
+            return ControlFlow::Continue(());
+        };
+        match self.step(&cell.bounds, cell.list, cell.depth) {
+            Step::Nothing => ControlFlow::Continue(()),
+            Step::Compare(list) => self.compare(&list, visit),
+            Step::Halves(halves) => {
+                let halves = halves.map(|(bounds, list)| Cell {
+                    bounds,
+                    list,
+                    depth: cell.depth - 1,
+                });
+                cells.extend(halves.into_iter().rev());
+                ControlFlow::Continue(())
+            }
+        }
     }
 
     pub(super) fn divide(

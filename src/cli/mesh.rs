@@ -51,6 +51,9 @@ pub(crate) struct MeshArguments {
     /// Leave out vertices that no tetrahedron has, and number the others anew: NAME.map holds old and new numbers.
     #[arg(long)]
     drop_unused: bool,
+    /// Repair nothing: refuse vertices and edges on facets, facets that overlap or are equal, and degenerate ones.
+    #[arg(long)]
+    strict: bool,
     /// Verify the mesh exactly before it is written.
     #[arg(long)]
     verify: bool,
@@ -94,6 +97,7 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
             SteinerArgument::Exact => SteinerChoice::Exact,
         },
         drop_unused: arguments.drop_unused,
+        strict: arguments.strict,
     };
     let (input, formats) = Input::new(&arguments.input, &arguments.format)?;
     let output = Output::new(arguments.output.as_deref(), &formats, &input)?;
@@ -160,6 +164,9 @@ fn refuse(
         return stop;
     }
     let input = input.words();
+    if arguments.strict && error.is_repairable() {
+        message += "\nwithout --strict, what is listed here would be repaired";
+    }
     if error.findings.is_some() {
         message += &format!("\nfor all that is wrong: tetflip check {input}");
     }

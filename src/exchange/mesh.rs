@@ -1,7 +1,7 @@
 //! A tetrahedral mesh as files hold it: plain arrays, no adjacency. Written by [`crate::format`], read back by it,
 //! and checked by [`crate::verify`], whoever made it.
 
-use super::Attributes;
+use super::{Attributes, Facet};
 use crate::mesh::VertexId;
 use crate::number::Parameter;
 
@@ -46,6 +46,23 @@ pub struct FaceTable {
     pub polygons: Vec<u32>,
     /// The input facets, by index, that each polygon consists of: one, or several that are coplanar.
     pub facets: Vec<Vec<usize>>,
+    /// The polygons whose facets have several markers, since facets of the input overlap there, counted from 1, and
+    /// these markers; increasing.
+    pub markers: Vec<(u32, Vec<i64>)>,
+}
+
+impl FaceTable {
+    /// Lists the markers of polygons whose facets have several. `facets` are those of the input.
+    pub(crate) fn add_markers(&mut self, facets: &[Facet]) {
+        for (polygon, own) in (1..).zip(&self.facets) {
+            let mut markers: Vec<i64> = own.iter().map(|&f| facets[f].marker).collect();
+            markers.sort_unstable();
+            markers.dedup();
+            if markers.len() > 1 {
+                self.markers.push((polygon, markers));
+            }
+        }
+    }
 }
 
 /// The exact position a + t(b−a) of a Steiner point whose coordinates are no doubles.

@@ -124,6 +124,18 @@ pub(super) fn write_facets(out: &mut dyn Write, mesh: &ExportedMesh) -> io::Resu
             line.next(facet as u64 + first.min(1));
         }
         line.end();
+    })?;
+    if table.markers.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "# polygon, markers of its facets where these differ")?;
+    writeln!(out, "{}", table.markers.len())?;
+    write_lines(out, &table.markers, |line, _, (polygon, markers)| {
+        line.number(u64::from(*polygon));
+        for &marker in markers {
+            line.next_marker(marker);
+        }
+        line.end();
     })
 }
 

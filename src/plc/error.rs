@@ -64,9 +64,24 @@ pub struct FacetName {
 impl FacetName {
     /// The name of a facet of `plc`.
     pub fn new(plc: &Plc, index: usize) -> FacetName {
-        let corners = plc.facets[index].polygons.first();
         let origin = plc.origins.get(index).and_then(|of| of.first());
-        let index = origin.copied().unwrap_or(index);
+        FacetName::with_index(plc, index, origin.copied().unwrap_or(index))
+    }
+
+    /// The names of facets of the input, by their indices there; where `plc` is a repaired one, with the corners of the
+    /// first facets that come from them. O(n) for n facets.
+    pub(crate) fn of_input(plc: &Plc, facets: &[usize]) -> Vec<FacetName> {
+        let place = |&f: &usize| match plc.origins.is_empty() {
+            true => Some(f),
+            false => plc.origins.iter().position(|of| of.contains(&f)),
+        };
+        let name = |f: &usize| Some(FacetName::with_index(plc, place(f)?, *f));
+        facets.iter().filter_map(name).collect()
+    }
+
+    /// The facet at a place in `plc` with the index that the input gives it.
+    fn with_index(plc: &Plc, place: usize, index: usize) -> FacetName {
+        let corners = plc.facets[place].polygons.first();
         FacetName {
             index,
             number: index as i64 + i64::from(plc.first_index.min(1)),

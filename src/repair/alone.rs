@@ -56,6 +56,15 @@ pub(super) fn mend(plc: &Plc, parts: &Parts, repairs: &mut Repairs) -> Result<Dr
 
 /// Mends a facet; `false` if nothing is left of it.
 fn mend_facet(draft: &mut Draft, index: usize, repairs: &mut Repairs) -> Result<bool, PlcError> {
+    // Of several errors the check has told only one.
+    let exists = |v: &&VertexId| v.index() < draft.representative.len();
+    let mut corners = draft.plc.facets[index].polygons.iter().flatten();
+    if let Some(&v) = corners.find(|v| !exists(v)) {
+        return Err(PlcError::NoSuchVertex {
+            facet: FacetName::new(&draft.plc, index),
+            vertex: VertexName::new(&draft.plc, v),
+        });
+    }
     loop {
         if draft.plc.facets[index].polygons.is_empty() {
             return Ok(false);

@@ -33,7 +33,7 @@ mod precision;
 #[cfg(test)]
 mod tests;
 
-use crate::check::{Findings, Part, Parts, check, contacts, crossings};
+use crate::check::{Findings, Part, Parts, check, contacts, crossing_findings};
 use crate::exchange::{Note, Plc, Segment};
 use crate::mesh::TetMesh;
 use crate::plc::PlcError;
@@ -121,8 +121,10 @@ pub fn repair_beside<'p>(
         draft = Some(mended);
     }
     let current = draft.as_ref().map_or(plc, |draft| &draft.plc);
-    let Some(found) = contacts(current, &parts, options.merge_coplanar, delaunay) else {
-        return Err(needing_vertex(plc, current, options));
+    let found = contacts(current, &parts, options.merge_coplanar, LISTED, delaunay);
+    let found = match found {
+        Ok(found) => found,
+        Err(pairs) => return Err(needing_vertex(plc, current, &parts, &pairs)),
     };
     if found.pairs.is_empty() {
         let plc = draft.map_or(Cow::Borrowed(plc), |draft| Cow::Owned(draft.plc));
@@ -142,7 +144,7 @@ pub fn repair_beside<'p>(
         Err(Refused::Facet(error)) => Err(alone_wrong(vec![error])),
         Err(Refused::NeedsVertex) => {
             let before = before.as_ref().unwrap_or(plc);
-            Err(needing_vertex(plc, before, options))
+            Err(needing_vertex(plc, before, &Parts::new(before), &[]))
         }
     }
 }
@@ -161,8 +163,8 @@ fn contacts_resolved(
 ) -> Result<(), Refused> {
     if options.merge_coplanar && merged::merge(draft, &parts, &found)? {
         parts = Parts::new(&draft.plc);
-        let again = contacts(&draft.plc, &parts, true, delaunay);
-        found = again.ok_or(Refused::NeedsVertex)?;
+        let again = contacts(&draft.plc, &parts, true, 1, delaunay);
+        found = again.map_err(|_| Refused::NeedsVertex)?;
     }
     edges::divide(draft, &parts, &found, repairs);
     inside::complete(draft, &parts, &found, repairs)?;
@@ -171,8 +173,8 @@ fn contacts_resolved(
     if let Some(error) = parts.errors.first() {
         return Err(Refused::Facet(error.clone()));
     }
-    match contacts(&draft.plc, &parts, options.merge_coplanar, delaunay) {
-        Some(left) if left.pairs.is_empty() => Ok(()),
+    match contacts(&draft.plc, &parts, options.merge_coplanar, 1, delaunay) {
+        Ok(left) if left.pairs.is_empty() => Ok(()),
         _ => Err(Refused::NeedsVertex),
     }
 }
@@ -187,10 +189,10 @@ fn alone_wrong(errors: Vec<PlcError>) -> Box<Findings> {
 }
 
 /// The findings when parts of a PLC, whose facets are valid for themselves, intersect so that a new vertex would be
-/// needed.
-fn needing_vertex(input: &Plc, plc: &Plc, options: RepairOptions) -> Box<Findings> {
-    let mut found = crossings(plc, options.merge_coplanar, LISTED);
-    if found.conflicts.is_empty() {
+/// needed: these `pairs` or, if there are none, what the check says.
+fn needing_vertex(input: &Plc, plc: &Plc, parts: &Parts, pairs: &[[u32; 2]]) -> Box<Findings> {
+    let mut found = crossing_findings(plc, parts, pairs, pairs.len() >= LISTED);
+    if pairs.is_empty() {
         // What remained after the repair does not show in single contacts.
         found = check(plc, None);
         if found.conflicts.iter().any(|c| !c.repairable) {

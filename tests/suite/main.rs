@@ -22,6 +22,7 @@ mod meshes;
 mod not_flat;
 mod number_agreement;
 mod one_call;
+mod one_call_repairs;
 #[cfg(feature = "cli")]
 mod program;
 mod repair;

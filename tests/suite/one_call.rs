@@ -117,14 +117,15 @@ fn any_options() -> impl Strategy<Value = MeshOptions> {
         Insertion::Flip(FlipOrder::FILTERED),
         Insertion::Flip(FlipOrder::EXACT),
     ]);
-    (insertion, steiner, any::<[bool; 3]>()).prop_map(|(insertion, steiner, choices)| {
-        let [keep_hull, merge_coplanar, drop_unused] = choices;
+    (insertion, steiner, any::<[bool; 4]>()).prop_map(|(insertion, steiner, choices)| {
+        let [keep_hull, merge_coplanar, drop_unused, strict] = choices;
         MeshOptions {
             insertion,
             keep_hull,
             merge_coplanar,
             steiner,
             drop_unused,
+            strict,
         }
     })
 }

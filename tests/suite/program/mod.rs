@@ -10,6 +10,7 @@ mod outputs;
 mod place;
 mod recorded;
 mod refusals;
+mod repairs;
 mod streams;
 
 use input::{CUBE, FLAT, ROOMS, off, poly, stl};

@@ -175,6 +175,7 @@ fn intersections_are_refused_by_name() {
     ]);
     for way in ["cavity", "flip"] {
         let mesh = |file: &str| format!("mesh {file} --insert {way} -o x.node --hull");
+        let strict = |file: &str| mesh(file) + " --strict";
         place.refuses(&mesh("bar.poly"), 2, &["invalid PLC", "facet 6 (2 4 8 6)"]);
         place.refuses(
             &mesh("bowtie.off"),
@@ -183,16 +184,24 @@ fn intersections_are_refused_by_name() {
         );
         place.refuses(&mesh("wires.poly"), 2, &["edge 1-2", "edge 3-4", "cross"]);
         place.refuses(
-            &mesh("touch.poly"),
+            &strict("touch.poly"),
             2,
             &["inside facet 6 (2 4 8 6), which does not have it"],
         );
-        place.refuses(&mesh("edge.poly"), 2, &["lies on edge"]);
+        place.refuses(&strict("edge.poly"), 2, &["lies on edge"]);
         place.refuses(
-            &mesh("twice.poly"),
+            &strict("twice.poly"),
             2,
             &["facet 1 (1 3 4 2)", "facet 7", "the same"],
         );
+    }
+    for file in ["touch.poly", "edge.poly", "twice.poly"] {
+        place
+            .run(&format!("mesh {file} --hull -o y.node"))
+            .ends_with(0);
+        place
+            .run(&format!("verify {file} y.node --domain hull"))
+            .ends_with(0);
     }
 }
 
@@ -352,7 +361,9 @@ fn bad_input_is_explained() {
     place.run("check cube.poly").ends_with(0);
     let named = ["facet 1 (1 3 4 2)", "facet 7 (9 11 12 10)", "overlap"];
     let explained = [&named[..], &["tetflip check bad.poly"]].concat();
-    place.refuses("mesh bad.poly -o x.node", 2, &explained);
+    place.refuses("mesh bad.poly -o x.node --strict", 2, &explained);
+    place.run("mesh bad.poly -o good.node").ends_with(0);
+    place.run("verify bad.poly good.node").ends_with(0);
     place.run("check bad.poly").ends_with(2);
     place.run("check bad.poly -o bad.vtu --max 1").ends_with(2);
     let picture = String::from_utf8(place.bytes("bad.vtu")).expect("UTF-8");
