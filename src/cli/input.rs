@@ -97,6 +97,10 @@ impl<'a> Input<'a> {
                 "standard input: it looks like no format; {}",
                 names()
             )),
+            FormatError::UnknownExtension(_) => Stop::input(format!(
+                "{}: {error}; or --format says what it is",
+                self.name()
+            )),
             error => Stop::input(format!("{}: {error}", self.name())),
         })?;
         notes.iter().for_each(|note| warn(&note.to_string()));

@@ -71,7 +71,11 @@ fn a_mesh_on_stdout_is_alone_there() {
 
 #[test]
 fn formats_that_are_not_said() {
-    let place = Place::with(&[("cube.txt", &stl()), ("cube.poly", &stl())]);
+    let place = Place::with(&[
+        ("cube.txt", &stl()),
+        ("cube.poly", &stl()),
+        ("what.dat", "8 3 0 0\n"),
+    ]);
     // By content, with a note; an extension is taken at its word.
     let run = place.run_with("check -", stl().as_bytes()).ends_with(0);
     assert!(
@@ -100,6 +104,7 @@ fn formats_that_are_not_said() {
     ] {
         place.refuses(arguments, 2, &[part]);
     }
+    place.refuses("mesh what.dat", 2, &["\"dat\"", "--format says what it is"]);
     let run = place.run_with("mesh -", b"8 3 0 0").ends_with(2);
     assert!(
         run.stderr()
