@@ -10,7 +10,6 @@ use crate::exchange::Plc;
 use crate::mesh::{TetMesh, VertexId};
 use rustc_hash::FxHashSet;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Contacts of different parts elsewhere than in vertices and edges that both have. All lists are sorted.
 #[derive(Default)]
@@ -23,13 +22,15 @@ pub(crate) struct Contacts {
     pub on_triangles: Vec<(u32, VertexId)>,
 }
 
-/// So many times as many simplices as there are, those of all cells together, are looked at by one thread at first: where
+/// One thread looks at so many times as many simplices as there are, in all cells together, before others help: where
 /// many parts cross, a few are found at once.
 const ALONE: usize = 4;
 
 /// What one thread has found.
 #[derive(Default)]
 struct Found {
+    /// Pairs of parts that need a new vertex, and others.
+    crossing: FxHashSet<[u32; 2]>,
     pairs: FxHashSet<[u32; 2]>,
     on_edges: FxHashSet<([VertexId; 2], VertexId)>,
     on_triangles: FxHashSet<(u32, VertexId)>,
@@ -37,19 +38,30 @@ struct Found {
 
 impl Found {
     fn add(&mut self, more: Found) {
+        self.crossing.extend(more.crossing);
         self.pairs.extend(more.pairs);
         self.on_edges.extend(more.on_edges);
         self.on_triangles.extend(more.on_triangles);
     }
 
-    /// Adds two simplices that touch.
-    fn add_contact(&mut self, search: &Search, [i, j]: [usize; 2]) {
-        let faces = [search.face(i), search.face(j)];
-        let _ = search.pairs_of_owners(faces, &mut |pair| {
-            self.pairs.insert(pair);
+    /// Adds the parts of two simplices to a set of pairs.
+    fn add_pairs(
+        &mut self,
+        search: &Search,
+        [i, j]: [usize; 2],
+        set: fn(&mut Found) -> &mut FxHashSet<[u32; 2]>,
+    ) {
+        let set = set(self);
+        let _ = search.pairs_of_owners([search.face(i), search.face(j)], &mut |pair| {
+            set.insert(pair);
             ControlFlow::Continue(())
         });
-        match faces {
+    }
+
+    /// Adds two simplices that touch.
+    fn add_contact(&mut self, search: &Search, [i, j]: [usize; 2]) {
+        self.add_pairs(search, [i, j], |found| &mut found.pairs);
+        match [search.face(i), search.face(j)] {
             [Face::Vertex(v), Face::Edge(e)] => {
                 let edge = &search.parts.edges[e];
                 let owners = &search.parts.edge_owners[edge.owners.clone()];
@@ -106,20 +118,17 @@ pub(crate) fn contacts(
         crossing.search_in(&simplices, cells);
         return Err(crossing.sorted());
     }
-    // The rest by all threads. Which crossing one of them finds first is a matter of luck, so it is not told.
-    let crosses = AtomicBool::new(false);
     let visit = |i: usize, j: usize, found: &mut Found| {
-        if crosses.load(Ordering::Relaxed) || !search.touch(i, j) {
-            return;
-        }
-        match search.needs_vertex(i, j) {
-            true => crosses.store(true, Ordering::Relaxed),
-            false => found.add_contact(&search, [i, j]),
+        if search.touch(i, j) {
+            match search.needs_vertex(i, j) {
+                true => found.add_pairs(&search, [i, j], |found| &mut found.crossing),
+                false => found.add_contact(&search, [i, j]),
+            }
         }
     };
-    all.add(simplices.collect(cells.clone(), &visit, &Found::add));
-    if crosses.into_inner() {
-        crossing.search_in(&simplices, cells);
+    all.add(simplices.collect(cells, &visit, &Found::add));
+    if !all.crossing.is_empty() {
+        crossing.pairs = all.crossing;
         return Err(crossing.sorted());
     }
     let mut contacts = Contacts {
@@ -186,6 +195,7 @@ impl Crossing<'_, '_> {
     fn sorted(self) -> Vec<[u32; 2]> {
         let mut pairs: Vec<_> = self.pairs.into_iter().collect();
         pairs.sort_unstable();
+        pairs.truncate(self.most);
         pairs
     }
 }

@@ -71,6 +71,12 @@ pub(super) fn separated(triangle: [Point; 3], cell: &Bounds) -> bool {
         x.min(y).min(z) > reach || x.max(y).max(z) < -reach
     };
     let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| [0, 1, 2].map(|k| at[j][k] - at[i][k]));
+    // Where a cell is much smaller than a triangle, its plane does it mostly.
+    let [[ax, ay, az], [bx, by, bz], _] = sides;
+    let normal = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+    if apart(normal, MARGIN * 24.0 * size[0] * size[1] * size[2]) {
+        return true;
+    }
     for side in &sides {
         for k in 0..3 {
             let (l, m) = ((k + 1) % 3, (k + 2) % 3);
@@ -83,7 +89,5 @@ pub(super) fn separated(triangle: [Point; 3], cell: &Bounds) -> bool {
             }
         }
     }
-    let [[ax, ay, az], [bx, by, bz], _] = sides;
-    let normal = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
-    apart(normal, MARGIN * 24.0 * size[0] * size[1] * size[2])
+    false
 }

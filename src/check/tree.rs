@@ -83,6 +83,10 @@ impl Bounds {
         (0..3).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
     }
 
+    fn contains(&self, p: &Point) -> bool {
+        (0..3).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k])
+    }
+
     fn intersection(&self, other: &Bounds) -> Bounds {
         Bounds {
             low: [0, 1, 2].map(|k| self.low[k].max(other.low[k])),
@@ -403,11 +407,10 @@ impl<'a> Simplices<'a> {
 
     /// Whether a simplex may have a point in a cell. Never wrongly no.
     fn reaches(&self, i: u32, cell: &Bounds) -> bool {
-        self.boxes[i as usize].overlaps(cell)
-            && !separated(
-                self.corners[i as usize].map(|v| self.points[v.index()]),
-                cell,
-            )
+        let corners = self.corners[i as usize].map(|v| self.points[v.index()]);
+        // Mostly a corner is there, which needs no arithmetic.
+        corners.iter().any(|p| cell.contains(p))
+            || self.boxes[i as usize].overlaps(cell) && !separated(corners, cell)
     }
 
     /// Visits the pairs of a list.
