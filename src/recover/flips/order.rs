@@ -276,7 +276,8 @@ mod tests {
     use crate::predicate::DoublePoints;
 
     const WORDS: &str = "f64:paper f64:tetgen f64:plain f64:once f32 f32:once bits:8 bits:106 once:64 \
-        filtered exact rational naive naive:24 f64:paper,ties=perturbed f32,queue=possible bits:64,ties=circuit,queue=possible";
+        filtered exact rational naive naive:24 \
+        f64:paper,ties=perturbed f32,queue=possible bits:64,ties=circuit,queue=possible";
 
     #[test]
     fn words_and_orders_are_one_to_one() {

@@ -20,9 +20,9 @@ pub enum Evaluation {
     /// Every operation rounded, and the sign of D is that of the rounded D, right or wrong. The paper does not go as
     /// far.
     Naive,
-    /// As the paper's text has it (§3.2, §3.3): the weights d_v are values of the adaptive Orient3D; N is a value of the
-    /// adaptive InSphere; and D one of the adaptive Orient4D, given those weights, so that its sign is exact, but that of
-    /// another D.
+    /// As the paper's text has it (§3.2, §3.3): the weights d_v are values of the adaptive Orient3D; N is a value of
+    /// the adaptive InSphere; and D one of the adaptive Orient4D, given those weights, so that its sign is exact, but
+    /// that of another D.
     Paper,
     /// As TetGen 1.5 is known to do it: the same with weights by Orient3D in plain doubles.
     TetGen,

@@ -80,8 +80,8 @@ fn inputs(slab: &[(u64, u64)], lattice: &[(u64, u64)], sphere: &[(u64, u64)]) ->
 }
 
 /// Rounded times in the queue of the exact order, which has possible events only. What is left between these and
-/// filtered times is not the price of exact keys alone: filtered flips are done in a copy of the region, if it is large,
-/// and rounded times take the sign of D from the filter and evaluate N and D once more.
+/// filtered times is not the price of exact keys alone: filtered flips are done in a copy of the region, if it is
+/// large, and rounded times take the sign of D from the filter and evaluate N and D once more.
 pub fn in_same_queue() -> FlipOrder {
     FlipOrder::new(NumberType::F64Plain).with_rules(Rules {
         queue: QueueRule::Possible,
