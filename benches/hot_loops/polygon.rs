@@ -21,7 +21,7 @@ pub fn insertion(c: &mut Criterion) {
         ("cavity", Insertion::Cavity),
         (
             "flips f64",
-            Insertion::Flip(FlipOrder::new(NumberType::F64)),
+            Insertion::Flip(FlipOrder::new(NumberType::F64Plain)),
         ),
         ("flips filtered", Insertion::Flip(FlipOrder::FILTERED)),
         ("flips exact", Insertion::Flip(FlipOrder::EXACT)),

@@ -40,11 +40,20 @@ enum Verb {
         /// The input.
         input: Member,
         /// The number type of the flip times.
-        #[arg(long, default_value = "f64")]
+        #[arg(long, default_value = "f64:plain")]
         times: FlipOrder,
         /// Writes the PLC to this file, too.
         #[arg(long, value_name = "FILE.poly")]
         write: Option<PathBuf>,
+    },
+    /// Writes one input of `flip_order` as numbers: coordinates, identities, polygons, regions, and N and D of the
+    /// events, doubles as hexadecimal floats.
+    Dump {
+        /// The input.
+        input: Member,
+        /// Where the files go.
+        #[arg(short, long, value_name = "DIR")]
+        output: PathBuf,
     },
     /// Writes the tables, plots and numbers of the paper, all from the CSV files of the results.
     Paper {
@@ -164,6 +173,7 @@ fn main() -> ExitCode {
             times,
             write,
         }) => replay(input, times, write.as_deref()),
+        Some(Verb::Dump { input, output }) => flip_order::dump::dump(input, &output).map(tell),
         Some(Verb::Paper {
             results,
             output,
@@ -195,6 +205,14 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Names the files that have been written.
+fn tell(files: Vec<PathBuf>) -> bool {
+    for file in files {
+        println!("{}", file.display());
+    }
+    true
 }
 
 fn list() {

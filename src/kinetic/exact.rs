@@ -30,6 +30,8 @@ pub struct ExactOrder<M, N, const K: usize> {
     pub motion: M,
     /// Comparisons that quotients left to the perturbation.
     pub ties: u64,
+    /// Of those, comparisons of two events that are one, because they have one circuit.
+    pub one_circuit: u64,
     /// Quotients computed.
     pub quotients: u64,
     numbers: PhantomData<N>,
@@ -41,6 +43,7 @@ impl<N: Exact, M: Motion<N, K>, const K: usize> ExactOrder<M, N, K> {
         ExactOrder {
             motion,
             ties: 0,
+            one_circuit: 0,
             quotients: 0,
             numbers: PhantomData,
         }
@@ -63,7 +66,9 @@ impl<N: Exact, M: Motion<N, K>, const K: usize> ExactOrder<M, N, K> {
             return order;
         }
         self.ties += 1;
-        self.compare_perturbations(a, b)
+        let order = self.compare_perturbations(a, b);
+        self.one_circuit += u64::from(order.is_eq());
+        order
     }
 
     /// Which of two events comes first by the perturbation alone.
@@ -96,6 +101,8 @@ impl<N: Exact, M: Motion<N, K>, const K: usize> TimeOrder for ExactOrder<M, N, K
         b: Timed<M::Event, Quotient<N>>,
     ) -> Ordering {
         if M::is_one_circuit(a.0, b.0) {
+            self.ties += 1;
+            self.one_circuit += 1;
             return Ordering::Equal;
         }
         self.compare_quotients(a, b)

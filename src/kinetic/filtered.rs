@@ -77,6 +77,8 @@ pub struct FilteredOrder<M, const K: usize> {
     pub compared_exactly: u64,
     /// Comparisons of equal times, but for those that `exact` has counted.
     ties: u64,
+    /// Of those, comparisons of two events that are one.
+    one_circuit: u64,
 }
 
 impl<M: Motion<Dyadic, K>, const K: usize> FilteredOrder<M, K> {
@@ -88,12 +90,18 @@ impl<M: Motion<Dyadic, K>, const K: usize> FilteredOrder<M, K> {
             scale: None,
             compared_exactly: 0,
             ties: 0,
+            one_circuit: 0,
         }
     }
 
     /// Comparisons of equal times.
     pub fn ties(&self) -> u64 {
         self.ties + self.exact.ties
+    }
+
+    /// Of those, comparisons of two events that are one.
+    pub fn one_circuit(&self) -> u64 {
+        self.one_circuit + self.exact.one_circuit
     }
 
     /// Keeps a quotient in quanta.
@@ -193,11 +201,14 @@ impl<M: Motion<Dyadic, K>, const K: usize> TimeOrder for FilteredOrder<M, K> {
         self.compared_exactly += 1;
         if M::is_one_circuit(a.0, b.0) {
             self.ties += 1;
+            self.one_circuit += 1;
             return Ordering::Equal;
         }
         let (i, j) = (self.exactly(a), self.exactly(b));
         if let (Exactly::Integers(qa), Exactly::Integers(qb)) = (&self.kept[i], &self.kept[j]) {
-            return qa.compare(qb, &mut self.ties);
+            let (ties, order) = (self.ties, qa.compare(qb, &mut self.ties));
+            self.one_circuit += u64::from(order.is_eq() && self.ties > ties);
+            return order;
         }
         let (i, j) = (self.big(a), self.big(b));
         match (&self.kept[i], &self.kept[j]) {

@@ -1,6 +1,6 @@
 //! Plain floats as numbers: naive on purpose. Their signs may lie; nothing but a counted experiment may ask for them.
 
-use super::{Number, Sign};
+use super::{Dyadic, Number, Sign, Wide};
 use std::cmp::Ordering;
 
 /// A rounded number type with a quotient, in which flip times can be computed as the paper does.
@@ -10,6 +10,11 @@ pub trait Float: Number {
 
     /// The order of two finite numbers. (0 and −0 are equal.)
     fn compare(a: &Self, b: &Self) -> Ordering;
+
+    /// The number of this type nearest to x, infinite where x is beyond the largest.
+    fn nearest(x: &Dyadic) -> Self {
+        Self::from_f64(x.to_f64())
+    }
 
     /// This number from a double that was computed as this type would have, if this type is the double.
     fn computed(double: f64) -> Option<Self> {
@@ -71,5 +76,10 @@ impl Float for f32 {
     #[inline]
     fn compare(a: &f32, b: &f32) -> Ordering {
         a.partial_cmp(b).expect("finite numbers are ordered")
+    }
+    /// Rounded to 24 bits first, so that the double is exact: two roundings to nearest may differ from one. (But for
+    /// subnormal numbers, which have fewer bits.)
+    fn nearest(x: &Dyadic) -> f32 {
+        Wide::<24>::nearest(x.clone()).to_f64() as f32
     }
 }

@@ -131,6 +131,10 @@ impl<const BITS: u32> Float for Wide<BITS> {
     fn compare(a: &Self, b: &Self) -> Ordering {
         a.0.cmp(&b.0)
     }
+
+    fn nearest(x: &Dyadic) -> Self {
+        Wide::nearest(x.clone())
+    }
 }
 
 /// A number of mantissa bits for which this build has a [`Wide`]: one of [`Bits::ALL`].

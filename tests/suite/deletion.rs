@@ -122,7 +122,7 @@ fn delete(cdt: &mut Cdt, f: usize) -> DeletionCounts {
         assert_eq!(tets(&rug), tets(&exact));
     }
     for times in [
-        FlipOrder::new(NumberType::F64),
+        FlipOrder::new(NumberType::F64Plain),
         FlipOrder::new(NumberType::F32),
     ] {
         match rounded.delete_polygon_by(f, times) {
@@ -271,7 +271,8 @@ fn sorted<T: Ord>(all: impl Iterator<Item = T>) -> Vec<T> {
     list
 }
 
-/// Deletes the only polygon of a PLC from a copy of the mesh, which keeps its segments and the given edges and triangles.
+/// Deletes the only polygon of a PLC from a copy of the mesh, which keeps its segments and the given edges and
+/// triangles.
 fn delete_around(
     cdt: &Cdt,
     edges: &[[VertexId; 2]],

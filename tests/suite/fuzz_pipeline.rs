@@ -31,7 +31,7 @@ const INSERTIONS: [Insertion; 7] = [
     Insertion::Cavity,
     Insertion::GiftWrap,
     Insertion::Flip(FlipOrder::EXACT),
-    Insertion::Flip(FlipOrder::new(NumberType::F64)),
+    Insertion::Flip(FlipOrder::new(NumberType::F64Plain)),
     Insertion::Flip(FlipOrder::new(NumberType::F32)),
     Insertion::Flip(FlipOrder::new(NumberType::Naive)),
     // Eight bits.

@@ -238,10 +238,10 @@ fn close_to_a_plane() -> Plc {
 fn failures_replay() {
     for (plc, word) in [
         (cospherical(), "f32"),
-        (cospherical(), "f64"),
+        (cospherical(), "f64:plain"),
         (cospherical(), "bits:256"),
         (cospherical(), "naive"),
-        (close_to_a_plane(), "f64"),
+        (close_to_a_plane(), "f64:plain"),
         (close_to_a_plane(), "bits:53"),
         (close_to_a_plane(), "naive:24"),
     ] {

@@ -12,6 +12,7 @@ mod near_coplanar;
 mod needles;
 mod planes;
 pub mod prism;
+mod rectangle;
 mod sphere;
 mod walls;
 
@@ -35,8 +36,15 @@ pub struct Family {
     candidate: fn(&str, &mut Draw) -> Plc,
 }
 
+impl Family {
+    /// How many seeds of each subfamily make at least n members.
+    fn seeds_for(&self, n: u64) -> u64 {
+        n.div_ceil(self.subfamilies.len() as u64)
+    }
+}
+
 /// All families, in the order of tables.
-pub static FAMILIES: [Family; 9] = [
+pub static FAMILIES: [Family; 10] = [
     generic::FAMILY,
     lattice::FAMILY,
     sphere::FAMILY,
@@ -46,6 +54,8 @@ pub static FAMILIES: [Family; 9] = [
     walls::FAMILY,
     near_coplanar::FAMILY,
     needles::FAMILY,
+    // Not beside `random`: the place of a family chooses the stream of its members.
+    rectangle::FAMILY,
 ];
 
 /// One PLC of a family. Displayed, and parsed, as `family/subfamily:seed`.
@@ -79,19 +89,32 @@ impl Member {
     /// The members of all subfamilies with seeds 0, …, n − 1: first all with seed 0, and so on, so that the first
     /// ones are of all kinds.
     pub fn all(seeds: u64) -> Vec<Member> {
-        let kinds = || {
-            FAMILIES.iter().enumerate().flat_map(|(family, f)| {
-                (0..f.subfamilies.len()).map(move |subfamily| (family, subfamily))
-            })
-        };
-        let of_seed = |seed| {
-            kinds().map(move |(family, subfamily)| Member {
-                family,
-                subfamily,
-                seed,
-            })
-        };
-        (0..seeds).flat_map(of_seed).collect()
+        Member::with_seeds(|_| seeds)
+    }
+
+    /// At least n members of each family, and as many of each of its subfamilies, in the same order.
+    pub fn of_each_family(n: u64) -> Vec<Member> {
+        Member::with_seeds(|family| family.seeds_for(n))
+    }
+
+    fn with_seeds(seeds: impl Fn(&Family) -> u64) -> Vec<Member> {
+        let most = FAMILIES.iter().map(&seeds).max().unwrap_or(0);
+        let mut members = Vec::new();
+        for seed in 0..most {
+            for (family, f) in FAMILIES.iter().enumerate().filter(|(_, f)| seed < seeds(f)) {
+                members.extend((0..f.subfamilies.len()).map(|subfamily| Member {
+                    family,
+                    subfamily,
+                    seed,
+                }));
+            }
+        }
+        members
+    }
+
+    /// Whether it is among the first n or a few more of its family.
+    pub fn is_among_first(&self, n: u64) -> bool {
+        self.seed < FAMILIES[self.family].seeds_for(n)
     }
 
     /// The name of the family.
@@ -277,6 +300,22 @@ mod tests {
         }
         work.sort_unstable();
         assert!(work[0].0 >= 10, "of 40 members: {work:?}");
+    }
+
+    #[test]
+    fn families_are_equally_large() {
+        let members = Member::of_each_family(10);
+        for family in &FAMILIES {
+            let count = members.iter().filter(|m| m.family() == family.name).count();
+            assert!(
+                (10..10 + family.subfamilies.len()).contains(&count),
+                "{}",
+                family.name
+            );
+        }
+        assert!(members.iter().all(|m| m.is_among_first(10)));
+        assert!(members.iter().any(|m| !m.is_among_first(9)));
+        assert_eq!(members[..40.min(members.len())], Member::all(2)[..40]);
     }
 
     #[test]

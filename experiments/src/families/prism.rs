@@ -221,14 +221,18 @@ mod tests {
 
     #[test]
     fn rounded_order_locks_itself_in_schoenhardts_polyhedron() {
-        let (cdt, trace, result) = run(FlipOrder::new(NumberType::F64));
+        let (cdt, trace, result) = run(FlipOrder::new(NumberType::F64Plain));
         let [insertion] = trace.insertions.as_slice() else {
             panic!("one region");
         };
         // The fan: seven tetrahedra, all with the seventh vertex.
         assert_eq!(insertion.before.len(), 7);
         assert!(insertion.before.iter().all(|t| t.contains(&VertexId(6))));
-        let d = disorder(cdt.points(), insertion, FlipOrder::new(NumberType::F64));
+        let d = disorder(
+            cdt.points(),
+            insertion,
+            FlipOrder::new(NumberType::F64Plain),
+        );
         assert!(d.adjacent >= 2 && d.kendall > 2, "{d:?}");
         // The first event is the last one in the exact order, and the only one that is flipped.
         assert_eq!(

@@ -115,13 +115,13 @@ fn ratios(files: &Files, classes: &[&str]) -> Result<String, String> {
             )
         };
         // A quick run has fewer classes.
-        let Ok(below) = of("f64", "crossing_below") else {
+        let Ok(below) = of("f64:plain", "crossing_below") else {
             continue;
         };
         parts.push(format!(
             "{class}–{below} crossing tetrahedra: <strong>{}</strong> (f64, as the paper), <strong>{}</strong> (exact \
              order)",
-            of("f64", "ratio_to_cavity")?,
+            of("f64:plain", "ratio_to_cavity")?,
             of("filtered", "ratio_to_cavity")?
         ));
     }
@@ -164,7 +164,7 @@ fn polygons(files: &Files) -> Result<String, String> {
 
 fn stuck(files: &Files) -> Result<String, String> {
     let table = files.table("flip_order")?;
-    let f64 = |question| asked(&table, "subfamily=all, times=f64", question);
+    let f64 = |question| asked(&table, "subfamily=all, times=f64:plain", question);
     Ok(format!(
         "With times in f64, {} of {} small inputs made for it fail: {} get stuck, {} of them at Schönhardt’s \
          polyhedron, and {} end in what is not the CDT. <a href=\"#viewer\">One of them, step by step.</a>",

@@ -241,9 +241,9 @@ mod tests {
                 "lattice/layers",
                 "sphere/centre",
                 "prism/right",
-                "random/slab",
+                "rectangle/slab",
             ] {
-                for times in [FlipOrder::EXACT, FlipOrder::new(NumberType::F64)] {
+                for times in [FlipOrder::EXACT, FlipOrder::new(NumberType::F64Plain)] {
                     for film in films(&format!("{family}:{seed}"), times) {
                         let count = |f: fn(&Fate) -> bool| {
                             film.frames.iter().filter(|frame| f(&frame.fate)).count()
@@ -267,7 +267,7 @@ mod tests {
 
     #[test]
     fn the_paper_failure_leaves_seven_tetrahedra() {
-        let film = &films("prism/end:78", FlipOrder::new(NumberType::F64))[0];
+        let film = &films("prism/end:78", FlipOrder::new(NumberType::F64Plain))[0];
         assert_eq!((film.before.len(), film.end.len()), (7, 8));
         let exact = &films("prism/end:78", FlipOrder::EXACT)[0];
         let kinds: Vec<_> = exact.frames.iter().map(|f| kind(f.fate)).collect();

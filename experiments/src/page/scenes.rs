@@ -156,7 +156,7 @@ impl Plan {
             assert_eq!(insertions.len(), 1, "{name}: one missing region");
             insertions.pop().expect("one")
         };
-        let insertions = [FlipOrder::EXACT, FlipOrder::new(NumberType::F64)].map(one);
+        let insertions = [FlipOrder::EXACT, FlipOrder::new(NumberType::F64Plain)].map(one);
         let films = insertions.each_ref().map(|i| Film::of(cdt.points(), i));
         assert_eq!(films[0].before, films[1].before, "both begin alike");
         let polygon = &plc.facets[0].polygons[0];
@@ -170,7 +170,7 @@ impl Plan {
         let reference = watched(cdt, FlipOrder::EXACT).0.ok();
         let orders = [
             ("exact", FlipOrder::EXACT),
-            ("f64", FlipOrder::new(NumberType::F64)),
+            ("f64:plain", FlipOrder::new(NumberType::F64Plain)),
         ];
         let runs = std::array::from_fn(|i| {
             let (word, times) = orders[i];

@@ -18,6 +18,7 @@ pub fn files(sheets: &Sheets) -> Result<Vec<File>, SheetError> {
         ("fig9-table.tex".to_string(), fig9(sheets)?),
         ("cost-table.tex".to_string(), cost(sheets)?),
         ("flip-order-families.tex".to_string(), families(sheets)?),
+        ("flip-order-widths.tex".to_string(), widths(sheets)?),
         ("flip-order-outcomes.tex".to_string(), outcomes(sheets)?),
         ("flip-order-precision.dat".to_string(), precision(sheets)?),
     ];
@@ -49,7 +50,7 @@ pub fn files(sheets: &Sheets) -> Result<Vec<File>, SheetError> {
 
 const FIG_9_POINTS: [(&str, &str, &str); 4] = [
     ("cavity", "insertion=cavity, outcome=ok", "cavity "),
-    ("f64", "times=f64, outcome=ok", "flip f64"),
+    ("f64", "times=f64:plain, outcome=ok", "flip f64:plain"),
     ("filtered", "times=filtered, outcome=ok", "flip filtered"),
     ("exact", "times=exact, outcome=ok", "flip exact"),
 ];
@@ -63,7 +64,7 @@ const FIG_9: [Column; 8] = [
     ),
     (
         "\\fsixtyfour",
-        "only[times=f64](median_milliseconds)",
+        "only[times=f64:plain](median_milliseconds)",
         Format::Rough,
     ),
     (
@@ -78,7 +79,7 @@ const FIG_9: [Column; 8] = [
     ),
     (
         "$\\frac{\\text{\\fsixtyfour}}{\\text{cavity}}$",
-        "only[times=f64](ratio_to_cavity)",
+        "only[times=f64:plain](ratio_to_cavity)",
         Format::Ratio,
     ),
     (
@@ -119,7 +120,7 @@ fn fig9(sheets: &Sheets) -> Result<String, SheetError> {
 const COST: [Column; 8] = [
     (
         "\\fsixtyfour",
-        "only[method=flip f64](median_milliseconds)",
+        "only[method=flip f64:plain](median_milliseconds)",
         Format::Rough,
     ),
     (
@@ -169,7 +170,7 @@ fn cost(sheets: &Sheets) -> Result<String, SheetError> {
     for (input, rows) in Rows::all(sheets.get("exactness_cost-summary")?).by("input")? {
         let sizes = rows.by("about")?;
         for (about, rows) in [&sizes[0], &sizes[sizes.len() - 1]] {
-            let floats = rows.only("method=flip f64")?;
+            let floats = rows.only("method=flip f64:plain")?;
             let ok = format!(
                 "{} of {}",
                 floats.text("succeeded")?,
@@ -186,43 +187,80 @@ fn cost(sheets: &Sheets) -> Result<String, SheetError> {
     Ok(table.into_text(source))
 }
 
-/// Number types and their heads.
-const TYPES: [(&str, &str); 7] = [
-    ("f32", "\\fthirtytwo"),
-    ("f64", "\\fsixtyfour"),
-    ("bits:106", "106 bits"),
-    ("bits:256", "256 bits"),
-    ("naive", "naive"),
-    ("filtered", "filtered"),
-    ("exact", "exact"),
+/// Arms that are run on all inputs: which rows, and their heads.
+const ARMS: [(&str, &str); 7] = [
+    ("numbers=f64:paper, ties=arrival, queue=all", "\\fpaper"),
+    ("numbers=f64:tetgen, ties=arrival, queue=all", "\\ftetgen"),
+    ("numbers=f64:plain, ties=arrival, queue=all", "\\fsixtyfour"),
+    ("numbers=f64:once, ties=arrival, queue=all", "\\fonce"),
+    (
+        "numbers=f64:paper, ties=perturbed, queue=all",
+        "\\fpaper, perturbed",
+    ),
+    (
+        "numbers=f64:once, ties=perturbed, queue=all",
+        "\\fonce, perturbed",
+    ),
+    ("numbers=exact", "exact"),
 ];
 
+/// Failures, and below them the interval of their rate in percent.
 fn families(sheets: &Sheets) -> Result<String, SheetError> {
     let all = Rows::all(sheets.get("flip_order")?).only("subfamily=all")?;
-    let heads = TYPES.map(|(_, head)| (head, "", Format::Whole));
-    let mut table = Table::new("lrrrrrrrr", &["family", "inputs"], &heads);
-    let row = |name: &str, rows: &Rows| {
-        let inputs = rows.number("sum[times=exact](inputs)")?;
-        let mut cells = vec![name.to_string(), whole(inputs)];
-        for (times, _) in TYPES {
-            let rows = rows.only(&format!("times={times}"))?;
-            let (failed, of) = (
-                rows.number("sum(inputs - ok)")?,
-                rows.number("sum(inputs)")?,
-            );
-            cells.push(match of < inputs {
-                true => format!("{} of {}", whole(failed), whole(of)),
-                false => whole(failed),
-            });
-        }
-        Ok::<_, SheetError>(cells)
-    };
+    let heads = ARMS.map(|(_, head)| (head, "", Format::Whole));
+    let mut table = Table::new("lrrrrrrrrr", &["family", "inputs", "tied"], &heads);
     for (family, rows) in all.by("family")? {
-        table.row(&row(family, &rows)?);
+        let of_exact = rows.only("times=exact")?;
+        let mut counts = vec![family.to_string()];
+        for question in ["only(inputs)", "only(exact_ties_runs)"] {
+            counts.push(whole(of_exact.number(question)?));
+        }
+        let mut intervals = vec![String::new(); counts.len()];
+        for (arm, _) in ARMS {
+            let rows = rows.only(arm)?;
+            counts.push(whole(rows.number("only(inputs - ok)")?));
+            let [low, high] = [
+                rows.number("only(failure_low)")?,
+                rows.number("only(failure_high)")?,
+            ];
+            intervals.push(format!("{:.1}--{:.1}", low * 100.0, high * 100.0));
+        }
+        table.row(&counts);
+        table.row(&intervals);
     }
-    table.rule();
-    table.row(&row("all", &all)?);
-    Ok(table.into_text("flip_order.csv: subfamily=all; inputs - ok"))
+    Ok(table.into_text(
+        "flip_order.csv: subfamily=all; inputs - ok; failure_low, failure_high in percent",
+    ))
+}
+
+/// Number types that are run on a sample.
+const WIDTHS: [(&str, &str); 7] = [
+    ("f32", "\\fthirtytwo"),
+    ("bits:53", "53 bits"),
+    ("bits:106", "106 bits"),
+    ("bits:256", "256 bits"),
+    ("once:53", "53 bits, once"),
+    ("once:256", "256 bits, once"),
+    ("naive", "naive"),
+];
+
+fn widths(sheets: &Sheets) -> Result<String, SheetError> {
+    let all = Rows::all(sheets.get("flip_order")?).only("subfamily=all")?;
+    let heads = WIDTHS.map(|(_, head)| (head, "", Format::Whole));
+    let mut table = Table::new("lrrrrrrr", &["family"], &heads);
+    for (family, rows) in all.by("family")? {
+        let mut cells = vec![family.to_string()];
+        for (times, _) in WIDTHS {
+            let rows = rows.only(&format!("times={times}"))?;
+            let [failed, of] = [
+                rows.number("only(inputs - ok)")?,
+                rows.number("only(inputs)")?,
+            ];
+            cells.push(format!("{} of {}", whole(failed), whole(of)));
+        }
+        table.row(&cells);
+    }
+    Ok(table.into_text("flip_order.csv: subfamily=all; inputs - ok, inputs"))
 }
 
 const OUTCOMES: [(&str, &str); 8] = [
@@ -243,27 +281,25 @@ const OUTCOMES: [(&str, &str); 8] = [
         "stuck: what is left has one that was not found",
     ),
     ("stuck_undecided", "stuck: too large for the search"),
-    ("inverted", "inverted tetrahedra"),
+    ("displaced", "triangles of other polygons torn out"),
     ("endless", "flips go round in circles"),
     ("inputs - ok", "all failures"),
 ];
 
+/// Of the arms in the order of arrival.
 fn outcomes(sheets: &Sheets) -> Result<String, SheetError> {
     let all = Rows::all(sheets.get("flip_order")?).only("subfamily=all")?;
-    let heads = [
-        "outcome of failed insertions",
-        "\\fthirtytwo",
-        "\\fsixtyfour",
-        "naive",
-    ];
-    let mut table = Table::new("lrrr", &heads, &[]);
+    let arms = &ARMS[..4];
+    let mut heads = vec!["outcome of failed insertions"];
+    heads.extend(arms.iter().map(|(_, head)| head));
+    let mut table = Table::new("lrrrr", &heads, &[]);
     for (what, name) in OUTCOMES {
         if name == "all failures" {
             table.rule();
         }
         let mut row = vec![name.to_string()];
-        for times in ["f32", "f64", "naive"] {
-            row.push(whole(all.number(&format!("sum[times={times}]({what})"))?));
+        for (arm, _) in arms {
+            row.push(whole(all.only(arm)?.number(&format!("sum({what})"))?));
         }
         table.row(&row);
     }

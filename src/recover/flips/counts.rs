@@ -34,6 +34,8 @@ pub struct FlipCounts {
     pub compared_exactly: u64,
     /// Of those, left by equal quotients to the perturbation; exact times only.
     pub ties: u64,
+    /// Of those, comparisons of two events of one circuit, which need no perturbation.
+    pub one_circuit: u64,
     /// Events whose quotient was computed in exact numbers of any size; exact times only.
     pub big_quotients: u64,
 }
@@ -59,6 +61,7 @@ impl FlipCounts {
         self.comparisons = queue.comparisons();
         self.compared_exactly = undecided.compared_exactly;
         self.ties = undecided.ties;
+        self.one_circuit = undecided.one_circuit;
         self.big_quotients = undecided.big_quotients;
         self.overflows = undecided.overflows;
     }
@@ -78,6 +81,7 @@ impl FlipCounts {
         self.comparisons += other.comparisons;
         self.compared_exactly += other.compared_exactly;
         self.ties += other.ties;
+        self.one_circuit += other.one_circuit;
         self.big_quotients += other.big_quotients;
     }
 }

@@ -73,6 +73,7 @@ impl<'a, P: PointStore, N: Exact> FlipTimes for ExactTimes<'a, P, N> {
     fn undecided(&self) -> Undecided {
         Undecided {
             ties: self.order.ties,
+            one_circuit: self.order.one_circuit,
             big_quotients: self.order.quotients,
             ..Undecided::default()
         }

@@ -78,6 +78,7 @@ impl<'a, P: PointStore> FlipTimes for FilteredTimes<'a, P> {
         Undecided {
             compared_exactly: self.order.compared_exactly,
             ties: self.order.ties(),
+            one_circuit: self.order.one_circuit(),
             big_quotients: self.order.exact.quotients,
             overflows: 0,
         }

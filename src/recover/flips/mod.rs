@@ -7,6 +7,7 @@
 //!
 //! Large regions are flipped in a copy (`compact.rs`) if the number type asks for it and nobody observes.
 
+mod adaptive;
 mod compact;
 mod counts;
 mod deletion;

@@ -92,12 +92,16 @@ impl<'a, P: PointStore> PolygonMotion<'a, P> {
         self.numbers.is_none()
     }
 
+    /// The frame, about which d_v is measured, if v moves.
+    pub(super) fn frame_of_left(&self, v: VertexId) -> Option<[VertexId; 3]> {
+        (self.is_left)(v).then_some(self.frame)
+    }
+
     /// The rate d_v.
     pub(super) fn rate<N: Number>(&self, v: VertexId) -> N {
-        if !(self.is_left)(v) {
+        let Some([a, b, c]) = self.frame_of_left(v) else {
             return N::from_f64(0.0);
-        }
-        let [a, b, c] = self.frame;
+        };
         let p = [a, b, c, v].map(|v| self.points.coordinates::<N>(v));
         formula::orient3d(p.each_ref())
     }

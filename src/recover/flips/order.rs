@@ -4,7 +4,7 @@ use super::numbers::{
     ExactNumbers, FilteredNumbers, FlipNumbers, NaiveNumbers, NaiveWideNumbers, RoundedNumbers,
     WideNumbers,
 };
-use super::rounded::Evaluation::Plain;
+use super::rounded::Evaluation::{Once, Paper, Plain, TetGen};
 use super::ties::{Rules, UnknownRule};
 use crate::number::{Bits, Dyadic, UnknownBits};
 use num_rational::BigRational;
@@ -86,7 +86,9 @@ macro_rules! number_types {
                     Some((name, parameter)) => (name, Some(parameter)),
                     None => (word, None),
                 };
-                let _ = (name, parameter);
+                if word == "f64" {
+                    return Ok(NumberType::F64Paper);
+                }
                 $($(#[cfg($cfg)])? {
                     number_types!(@parse $type $word, word, name, parameter, $($payload)?);
                 })*
@@ -110,12 +112,23 @@ macro_rules! number_types {
 }
 
 number_types! { rules:
-    /// Quotients rounded to single precision (`f32`).
+    /// Doubles, evaluated as the paper's text says: weights by the adaptive Orient3D, adaptive InSphere and Orient4D
+    /// (`f64:paper`, or `f64`).
+    F64Paper = "f64:paper", Rounded, RoundedNumbers::<f64>::new(Paper, rules);
+    /// Doubles, evaluated as TetGen 1.5 is known to do it: the same with weights in plain doubles (`f64:tetgen`).
+    F64TetGen = "f64:tetgen", Rounded, RoundedNumbers::<f64>::new(TetGen, rules);
+    /// Doubles, every operation rounded; only the sign of D is exact (`f64:plain`).
+    F64Plain = "f64:plain", Rounded, RoundedNumbers::<f64>::new(Plain, rules);
+    /// Doubles: N and D are computed exactly, and each is rounded once (`f64:once`).
+    F64Once = "f64:once", Rounded, RoundedNumbers::<f64>::new(Once, rules);
+    /// Single precision, every operation rounded (`f32`).
     F32 = "f32", Rounded, RoundedNumbers::<f32>::new(Plain, rules);
-    /// Quotients rounded to double precision (`f64`).
-    F64 = "f64", Rounded, RoundedNumbers::<f64>::new(Plain, rules);
-    /// Quotients rounded to a chosen number of mantissa bits, with unbounded exponents (`bits:106`).
+    /// Single precision: exact N and D, each rounded once (`f32:once`).
+    F32Once = "f32:once", Rounded, RoundedNumbers::<f32>::new(Once, rules);
+    /// A chosen number of mantissa bits, with unbounded exponents, every operation rounded (`bits:106`).
     Wide(bits: Bits) = "bits", Rounded, WideNumbers { bits, evaluation: Plain, rules };
+    /// The same: exact N and D, each rounded once (`once:106`).
+    WideOnce(bits: Bits) = "once", Rounded, WideNumbers { bits, evaluation: Once, rules };
     /// Float enclosures, exact dyadic numbers where they overlap, and the perturbation: the exact order, mostly at the
     /// price of floats (`filtered`).
     Filtered = "filtered", Exact, FilteredNumbers;
@@ -133,7 +146,7 @@ number_types! { rules:
 }
 
 /// In which order the flips of an insertion are done: a number type for their times, and for a rounded one the rules of
-/// its queue (`f64,ties=perturbed,queue=possible`).
+/// its queue (`f64:paper,ties=perturbed,queue=possible`).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct FlipOrder {
     /// The number type.
@@ -191,7 +204,7 @@ impl FlipOrder {
     /// The same order of times over exact predicates, where they were rounded.
     pub(super) fn without_naivety(mut self) -> FlipOrder {
         self.numbers = match self.numbers {
-            NumberType::Naive => NumberType::F64,
+            NumberType::Naive => NumberType::F64Plain,
             NumberType::NaiveWide(bits) => NumberType::Wide(bits),
             numbers => numbers,
         };
@@ -215,7 +228,8 @@ impl fmt::Display for FlipOrder {
 pub enum UnknownOrder {
     /// No such word.
     #[error(
-        "{0:?} is no number type; there are f32, f64, bits:N, filtered, exact, rational, rug, naive and naive:N"
+        "{0:?} is no number type; there are f64:paper (or f64), f64:tetgen, f64:plain, f64:once, f32, f32:once, \
+         bits:N, once:N, filtered, exact, rational, rug, naive and naive:N"
     )]
     Word(String),
     /// No such number of bits.
@@ -226,7 +240,7 @@ pub enum UnknownOrder {
     Rule(#[from] UnknownRule),
     /// Rules for a number type that has none.
     #[error(
-        "only rounded number types (f32, f64, bits:N) have rules for ties and for the queue; {0} has none"
+        "only rounded number types (f64:…, f32, bits:N, …) have rules for ties and for the queue; {0} has none"
     )]
     NoRules(NumberType),
     /// GMP rationals are a feature of the build.
@@ -261,8 +275,8 @@ mod tests {
     use super::*;
     use crate::predicate::DoublePoints;
 
-    const WORDS: &str = "f32 f64 bits:8 bits:106 filtered exact rational naive naive:24 \
-        f64,ties=perturbed f32,queue=possible bits:64,ties=circuit,queue=possible";
+    const WORDS: &str = "f64:paper f64:tetgen f64:plain f64:once f32 f32:once bits:8 bits:106 once:64 \
+        filtered exact rational naive naive:24 f64:paper,ties=perturbed f32,queue=possible bits:64,ties=circuit,queue=possible";
 
     #[test]
     fn words_and_orders_are_one_to_one() {
@@ -273,6 +287,9 @@ mod tests {
             .split_whitespace()
             .filter(|w| w.parse().is_ok_and(FlipOrder::is_exact));
         assert_eq!(exact.collect::<Vec<_>>(), ["filtered", "exact", "rational"]);
+        let [f64, paper] =
+            ["f64,queue=possible", "f64:paper,queue=possible"].map(str::parse::<FlipOrder>);
+        assert_eq!(f64, paper);
         assert_eq!("rug".parse::<FlipOrder>().is_ok(), cfg!(feature = "rug"));
     }
 

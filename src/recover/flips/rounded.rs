@@ -1,5 +1,6 @@
 //! Flip times as rounded quotients: the paper's own method, which can fail.
 
+use super::adaptive::{Adaptive, Weights};
 use super::event::Signs;
 use super::filter::{Filter, Moving};
 use super::motion::{Circuits, PolygonMotion};
@@ -14,11 +15,19 @@ use crate::predicate::formula::Lifted;
 /// How N and D are evaluated.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Evaluation {
-    /// Every operation rounded, but the sign of D is exact, as in the paper, whose Orient4D is exact in every mode.
+    /// Every operation rounded, but the sign of D is exact.
     Plain,
     /// Every operation rounded, and the sign of D is that of the rounded D, right or wrong. The paper does not go as
     /// far.
     Naive,
+    /// As the paper's text has it (§3.2, §3.3): the weights d_v are values of the adaptive Orient3D; N is a value of the
+    /// adaptive InSphere; and D one of the adaptive Orient4D, given those weights, so that its sign is exact, but that of
+    /// another D.
+    Paper,
+    /// As TetGen 1.5 is known to do it: the same with weights by Orient3D in plain doubles.
+    TetGen,
+    /// N and D exact, and each rounded once; the sign of D is exact.
+    Once,
 }
 
 /// Times as rounded quotients.
@@ -26,6 +35,7 @@ pub struct RoundedTimes<'a, P, N> {
     filter: Filter<'a, P>,
     exact: Circuits<'a, P, Dyadic>,
     rounded: Circuits<'a, P, N>,
+    adaptive: Adaptive<'a, P>,
     evaluation: Evaluation,
     queue: QueueRule,
     order: RoundedOrder<N, FlipTies<'a, P, N>>,
@@ -38,12 +48,19 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
     pub fn new(
         motion: &'a PolygonMotion<'a, P>,
         evaluation: Evaluation,
-        Rules { ties, queue }: Rules,
+        Rules { ties, queue, .. }: Rules,
     ) -> Self {
         RoundedTimes {
             filter: Filter::new(motion),
             exact: Circuits::new(motion),
             rounded: Circuits::new(motion),
+            adaptive: Adaptive::new(
+                motion,
+                match evaluation {
+                    Evaluation::TetGen => Weights::Plain,
+                    _ => Weights::Adaptive,
+                },
+            ),
             evaluation,
             queue,
             order: RoundedOrder::new(FlipTies::new(ties, motion)),
@@ -51,13 +68,37 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
         }
     }
 
+    /// N and D of v, x, y, z, w as they are evaluated, if D > 0.
+    pub fn parts(&mut self, circuit: [VertexId; 5]) -> Option<(N, N)> {
+        let [v, x, y, z, _] = circuit;
+        self.positive([v, x, y, z], circuit)
+    }
+
     /// N and D, if D > 0.
     #[inline]
     fn positive(&mut self, tet: [VertexId; 4], circuit: [VertexId; 5]) -> Option<(N, N)> {
-        if self.evaluation == Evaluation::Naive {
-            let (n, d) = self.rounded.evaluate(circuit);
-            return (d.sign() == Some(Sign::Positive)).then_some((n, d));
+        match self.evaluation {
+            Evaluation::Plain => self.positive_plain(tet, circuit),
+            Evaluation::Naive => {
+                let (n, d) = self.rounded.evaluate(circuit);
+                (d.sign() == Some(Sign::Positive)).then_some((n, d))
+            }
+            Evaluation::Paper | Evaluation::TetGen => {
+                let [n, d] = self.adaptive.evaluate(circuit);
+                (d > 0.0).then(|| (N::from_f64(n), N::from_f64(d)))
+            }
+            Evaluation::Once => {
+                self.filter.rising(circuit)?;
+                let (n, d) = self.exact.evaluate(circuit);
+                let is_positive = d.exact_sign().is_positive();
+                is_positive.then(|| (N::nearest(&n), N::nearest(&d)))
+            }
         }
+    }
+
+    /// [`Evaluation::Plain`].
+    #[inline]
+    fn positive_plain(&mut self, tet: [VertexId; 4], circuit: [VertexId; 5]) -> Option<(N, N)> {
         let rising = self.filter.rising(circuit)?;
         if !rising.d.is_positive() && !self.exact.evaluate(circuit).1.exact_sign().is_positive() {
             return None;

@@ -76,6 +76,8 @@ pub struct Undecided {
     pub compared_exactly: u64,
     /// Comparisons that exact quotients left to the perturbation.
     pub ties: u64,
+    /// Of those, comparisons of two events of one circuit, which are one.
+    pub one_circuit: u64,
     /// Events whose exact quotient had to be computed in numbers of any size.
     pub big_quotients: u64,
     /// Times discarded because a rounded quotient was not finite.

@@ -65,7 +65,7 @@ fn names_in_capitals_are_the_same_formats() {
 fn a_success_removes_the_region_of_an_earlier_failure() {
     let place = Place::with(&[("a.poly", PRISM)]);
     place
-        .run("mesh a.poly --hull --times f64 -o x.node")
+        .run("mesh a.poly --hull --times f64:plain -o x.node")
         .ends_with(1);
     assert_eq!(place.names(), ["a.poly", "x.failure.poly"]);
     // Another output is another run.

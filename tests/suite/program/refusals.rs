@@ -301,9 +301,9 @@ pub const PRISM: &str = "7 3 0 0\n\
 fn failed_flips_leave_their_region_to_try_again() {
     let place = Place::with(&[("a.poly", PRISM)]);
     let run = place
-        .run("mesh a.poly --hull --times f64 -o x.node")
+        .run("mesh a.poly --hull --times f64:plain -o x.node")
         .ends_with(1);
-    let again = "tetflip mesh x.failure.poly --hull --insert flip --times f64";
+    let again = "tetflip mesh x.failure.poly --hull --insert flip --times f64:plain";
     assert!(
         run.stderr().ends_with(&format!("{again}\n")),
         "{}",
@@ -321,7 +321,7 @@ fn failed_flips_leave_their_region_to_try_again() {
     place
         .run("mesh x.failure.poly --hull --verify")
         .ends_with(0);
-    place.refuses("mesh a.poly --hull --times f64", 1, &["--output"]);
+    place.refuses("mesh a.poly --hull --times f64:plain", 1, &["--output"]);
 }
 
 #[cfg(unix)]

@@ -154,7 +154,7 @@ mod tests {
             of(FlipOrder::EXACT, &counts).map(parts),
             Some([0.0, 0.97, 0.03])
         );
-        assert_eq!(of(FlipOrder::new(NumberType::F64), &counts), None);
+        assert_eq!(of(FlipOrder::new(NumberType::F64Plain), &counts), None);
         assert_eq!(of(FlipOrder::EXACT, &FlipCounts::default()), None);
         assert_eq!(decided(Method(Insertion::Cavity), &counts), None);
     }

@@ -1,11 +1,13 @@
 //! `exactness_cost-summary.csv`: times relative to `f64` and to cavities by input and size; and the project's targets.
 
 use super::input::{KINDS, Kind};
+use super::plan::in_same_queue;
 use super::row::Row;
 use crate::frame::text::number;
 use crate::measure::method::Method;
 use crate::measure::sample::{median, rounded};
 use serde::Serialize;
+use tetflip::recover::polygons::Insertion;
 
 /// One method on the inputs of one kind and size. Ratios are medians, over the seeds, of ratios of median times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -18,6 +20,10 @@ pub struct Summary {
     pub median_milliseconds: Option<f64>,
     pub median_microseconds_per_tet: Option<f64>,
     pub ratio_to_f64: Option<f64>,
+    /// To rounded times in the same queue, and the least and the greatest of these ratios.
+    pub ratio_to_same_queue: Option<f64>,
+    pub least_to_same_queue: Option<f64>,
+    pub most_to_same_queue: Option<f64>,
     pub ratio_to_cavity: Option<f64>,
     pub by_floats: Option<f64>,
     pub by_exact_quotients: Option<f64>,
@@ -39,13 +45,14 @@ fn summary(class: &[Row], method: Method) -> Option<Summary> {
         let sample: Vec<f64> = of_method.iter().filter_map(|r| f(r)).collect();
         median(&sample).map(rounded)
     };
-    let ratio_to = |other: &str| {
-        median_of(&|row| {
-            let mut others = class.iter().filter(|r| r.same_input(row));
-            let other = others.find(|r| r.method == other)?;
-            Some(row.median_seconds? / other.median_seconds?)
-        })
+    let ratio = |row: &Row, other: &str| {
+        let mut others = class.iter().filter(|r| r.same_input(row));
+        let other = others.find(|r| r.method == other)?;
+        Some(row.median_seconds? / other.median_seconds?)
     };
+    let ratio_to = |other: &str| median_of(&|row| ratio(row, other));
+    let same_queue = Method(Insertion::Flip(in_same_queue())).to_string();
+    let to_same_queue = of_method.iter().filter_map(|row| ratio(row, &same_queue));
     Some(Summary {
         input: first.input,
         about: first.about,
@@ -55,7 +62,10 @@ fn summary(class: &[Row], method: Method) -> Option<Summary> {
         median_microseconds_per_tet: median_of(&|r| {
             Some(r.median_seconds? * 1e6 / r.crossing_tets as f64)
         }),
-        ratio_to_f64: ratio_to("flip f64"),
+        ratio_to_f64: ratio_to("flip f64:plain"),
+        ratio_to_same_queue: ratio_to(&same_queue),
+        least_to_same_queue: to_same_queue.clone().reduce(f64::min).map(rounded),
+        most_to_same_queue: to_same_queue.reduce(f64::max).map(rounded),
         ratio_to_cavity: ratio_to("cavity"),
         by_floats: median_of(&|r| r.by_floats),
         by_exact_quotients: median_of(&|r| r.by_exact_quotients),
@@ -129,7 +139,7 @@ pub fn targets(summaries: &[Summary]) -> Vec<Target> {
 pub fn table(summaries: &[Summary], methods: &[Method]) -> String {
     let mut text = format!("{:<16} {:>7} {:>10}", "input", "tets", "f64 ms");
     for method in methods {
-        text += &format!(" {:>9}", short(&method.to_string()));
+        text += &format!(" {:>10}", short(&method.to_string()));
     }
     text += &format!(
         " {:>10} {:>8} {:>8} {:>8}\n",
@@ -137,7 +147,7 @@ pub fn table(summaries: &[Summary], methods: &[Method]) -> String {
     );
     for class in summaries.chunk_by(|a, b| (a.input, a.about) == (b.input, b.about)) {
         let of = |method: &str| class.iter().find(|s| s.method == method);
-        let milliseconds = of("flip f64").and_then(|s| s.median_milliseconds);
+        let milliseconds = of("flip f64:plain").and_then(|s| s.median_milliseconds);
         text += &format!(
             "{:<16} {:>7} {:>10}",
             class[0].input,
@@ -151,7 +161,7 @@ pub fn table(summaries: &[Summary], methods: &[Method]) -> String {
                 _ => "",
             };
             let ratio = number(summary.and_then(|s| s.ratio_to_f64));
-            text += &format!(" {:>9}", format!("{ratio}{mark}"));
+            text += &format!(" {:>10}", format!("{ratio}{mark}"));
         }
         let filtered = of("flip filtered");
         let columns: [fn(&Summary) -> Option<f64>; 4] = [
@@ -167,7 +177,11 @@ pub fn table(summaries: &[Summary], methods: &[Method]) -> String {
 }
 
 fn short(method: &str) -> &str {
-    method.strip_prefix("flip ").unwrap_or(method)
+    match method.strip_prefix("flip ") {
+        Some(times) if times.contains("copy=yes") => "same queue",
+        Some(times) => times,
+        None => method,
+    }
 }
 
 #[cfg(test)]
@@ -176,8 +190,8 @@ mod tests {
     use super::super::plan::methods;
     use super::*;
 
-    /// Rows of one input, with the seconds of f64, filtered and cavity.
-    fn rows(kind: Kind, about: u64, seed: u64, seconds: [f64; 3]) -> Vec<Row> {
+    /// Rows of one input, with the seconds of f64, filtered and cavity; in the same queue f64 takes half as long.
+    fn rows(kind: Kind, about: u64, seed: u64, [f64, filtered, cavity]: [f64; 3]) -> Vec<Row> {
         let input = Input { kind, about, seed };
         let of_method = |(method, seconds): (usize, f64)| Row {
             median_seconds: Some(seconds),
@@ -189,12 +203,14 @@ mod tests {
             by_floats: (method == 2).then_some(0.75),
             ..Row::new(&input, methods()[method])
         };
-        let cavity = methods().len() - 2;
-        [0, 2, cavity]
-            .into_iter()
-            .zip(seconds)
-            .map(of_method)
-            .collect()
+        [
+            (0, f64),
+            (2, filtered),
+            (4, f64 / 2.0),
+            (methods().len() - 2, cavity),
+        ]
+        .map(of_method)
+        .to_vec()
     }
 
     #[test]
@@ -205,15 +221,21 @@ mod tests {
         all.extend(rows(Kind::Lattice(Cut::Tilted), 500, 1, [1.0, 3.0, 1.0]));
         all.extend(rows(Kind::Sphere, 500, 1, [1.0, 3.0, 1.0]));
         let summaries = summaries(&all, &methods());
-        assert_eq!(summaries.len(), 9);
+        assert_eq!(summaries.len(), 12);
         let filtered = &summaries[1];
         assert_eq!((filtered.inputs, filtered.succeeded), (3, 3));
         assert_eq!(
             (filtered.ratio_to_f64, filtered.ratio_to_cavity),
             (Some(1.0), Some(1.2))
         );
+        let to_same_queue = [
+            filtered.least_to_same_queue,
+            filtered.ratio_to_same_queue,
+            filtered.most_to_same_queue,
+        ];
+        assert_eq!(to_same_queue, [Some(1.8), Some(2.0), Some(2.4)]);
         assert_eq!(filtered.by_floats, Some(0.75));
-        assert_eq!(summaries[3].succeeded, 0);
+        assert_eq!(summaries[4].succeeded, 0);
         let targets = targets(&summaries);
         let reached: Vec<_> = targets.iter().map(|t| (t.bound, t.reached)).collect();
         assert_eq!(reached, [(1.1, true), (2.0, false), (1.0, false)]);

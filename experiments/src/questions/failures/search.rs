@@ -32,7 +32,7 @@ pub struct Case {
 
 /// The number types of the gallery.
 const TIMES: [FlipOrder; 2] = [
-    FlipOrder::new(NumberType::F64),
+    FlipOrder::new(NumberType::F64Plain),
     FlipOrder::new(NumberType::F32),
 ];
 
@@ -70,7 +70,7 @@ pub fn gallery(seeds: u64, context: &Context) -> Vec<Case> {
     });
     let first = failure(
         PAPERS.parse().expect("a name"),
-        FlipOrder::new(NumberType::F64),
+        FlipOrder::new(NumberType::F64Plain),
     );
     let found = smallest.into_inner().expect("no worker panics");
     first.into_iter().chain(found.into_values()).collect()

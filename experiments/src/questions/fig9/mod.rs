@@ -317,7 +317,7 @@ mod tests {
             assert_eq!(row.scene, rows[0].scene);
             assert_eq!(row.flips.queued > 0, row.method.insertion == "flip");
         }
-        assert_eq!(rows[2].name(), "40 vertices, seed 1, flip f64");
+        assert_eq!(rows[2].name(), "40 vertices, seed 1, flip f64:plain");
         // The last one is of exact flips.
         assert_each_can_fail(
             expectations,

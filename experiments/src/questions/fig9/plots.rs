@@ -132,7 +132,7 @@ mod tests {
         assert!(paper.points(&rows, methods[1]).is_empty());
         assert!(paper.svg(&rows, &methods).unwrap().contains("flip exact"));
         let svg = rounded.svg(&rows, &methods).unwrap();
-        assert!(svg.contains("flip f64") && !svg.contains("flip exact"));
+        assert!(svg.contains("flip f64:plain") && !svg.contains("flip exact"));
         assert_eq!(paper.svg(&rows[..1], &methods), Err(PlotError::NoPoints));
     }
 }

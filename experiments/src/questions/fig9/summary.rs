@@ -84,7 +84,7 @@ fn summary(class: &[&Row], method: Method, from: u64, below: Option<u64>) -> Sum
             Some(s * 1e6 / r.scene.crossing_tets as f64)
         }),
         ratio_to_cavity: ratio_to("cavity", ""),
-        ratio_to_f64: ratio_to("flip", "f64"),
+        ratio_to_f64: ratio_to("flip", "f64:plain"),
         ratio_to_exact: ratio_to("flip", "exact"),
     }
 }

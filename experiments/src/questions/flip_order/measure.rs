@@ -1,4 +1,4 @@
-//! One input, with every number type.
+//! One input, with every arm.
 
 use super::plan::Plan;
 use crate::families::{Member, Prepared};
@@ -72,15 +72,28 @@ pub struct Measured {
     pub runs: Vec<Run>,
 }
 
+impl Measured {
+    /// Events of the exact order that the perturbation alone tells from another.
+    pub fn exact_ties(&self) -> u64 {
+        let exact = self.runs.iter().find(|run| run.times == FlipOrder::EXACT);
+        exact.map_or(0, |run| run.disorder.exact_ties)
+    }
+
+    /// Whether there are any.
+    pub fn has_exact_ties(&self) -> bool {
+        self.exact_ties() > 0
+    }
+}
+
 /// Runs one input.
 pub fn measure(member: Member, plan: &Plan) -> Measured {
     let prepared = member.prepare();
     let reference = tets_by(&prepared.cdt, Insertion::Flip(FlipOrder::EXACT));
     let expected = reference.as_ref().ok().map(|(tets, _)| tets);
-    let of_seed = plan
-        .numbers
+    let arms = plan
+        .arms
         .iter()
-        .filter(|n| member.seed.is_multiple_of(n.every));
+        .filter(|a| member.is_among_first(a.per_family));
     let agrees = |insertion| {
         let result = tets_by(&prepared.cdt, insertion);
         result.is_ok_and(|(tets, _)| Some(&tets) == expected)
@@ -95,8 +108,8 @@ pub fn measure(member: Member, plan: &Plan) -> Measured {
         cavity_agrees: agrees(Insertion::Cavity),
         gift_wrap_agrees: agrees(Insertion::GiftWrap),
         verified: sampled.then(|| is_cdt(&prepared)),
-        runs: of_seed
-            .map(|n| run(&prepared.cdt, n.times, expected))
+        runs: arms
+            .map(|a| run(&prepared.cdt, a.order, expected))
             .collect(),
     }
 }

@@ -4,7 +4,7 @@
 //! paper's three patches make of it, how often does the insertion fail, and what is left then? Does the exact order,
 //! with the perturbation, always succeed?
 //!
-//! **Inputs.** Small PLCs of nine families ([`crate::families`]) that make ties, near ties and large rounding
+//! **Inputs.** Small PLCs of ten families ([`crate::families`]) that make ties, near ties and large rounding
 //! errors; every polygon is exactly flat.
 //!
 //! **Columns.** [`row::Summary`], [`row::FailureRow`]; the README of this package has their meaning.
@@ -12,15 +12,18 @@
 //! **Expected.** Every exact number type succeeds on every input, without a patch and without an inversion, and ends in
 //! the tetrahedra of cavity retriangulation ([`expect`]). Rounded times may fail. Asserted at the end.
 
+pub mod dump;
 mod expect;
 pub mod measure;
+mod merge;
 pub mod plan;
 pub mod replay;
 mod row;
+mod wilson;
 
 use crate::families::{FAMILIES, Member};
-use crate::frame::record::{Results, csv_text};
-use crate::frame::{About, Answer, Context, Experiment, Failed, join};
+use crate::frame::record::Results;
+use crate::frame::{About, Answer, Context, Experiment, Failed};
 use crate::pictures::plot::{Plot, PlotError, Scale, Series};
 use plan::Plan;
 use row::{ALL, Summary};
@@ -34,14 +37,16 @@ impl Experiment for FlipOrder {
         About {
             name: "flip_order",
             question: "what becomes of flips whose times are rounded (paper, §3.3, failure case of §3.4)",
-            seconds: 65,
+            seconds: 300,
         }
     }
 
     fn run(&self, context: &Context) -> Result<Answer, Failed> {
         let plan = context.plan(Plan::quick, Plan::full);
-        let mut members = Member::all(plan.seeds);
-        members.retain(|m| context.shard.is_none_or(|shard| shard.has(&m.to_string())));
+        let mut members = Member::of_each_family(plan.per_family);
+        if let Some(shard) = context.shard {
+            members.retain(|member| shard.has(&member.to_string()));
+        }
         let mut inputs =
             context.measure_on_all_processors(&members, |&member| measure::measure(member, &plan));
         inputs.sort_by_key(|m| m.member.key());
@@ -68,44 +73,18 @@ impl Experiment for FlipOrder {
     }
 
     fn join(&self, shards: &[PathBuf], results: &Results) -> Result<Vec<PathBuf>, Failed> {
-        let failed = |shard: &&PathBuf| shard.join("flip_order-failures.csv").exists();
-        let failed: Vec<PathBuf> = shards.iter().filter(failed).cloned().collect();
-        let failures = join::read(&failed, "flip_order-failures")?;
-        let mut all = failures.first().ok_or("no shard has a failure")?.clone();
-        all.cells = failures.into_iter().flat_map(|sheet| sheet.cells).collect();
-        // All runs of one input are in one shard, in the order of the plan.
-        all.cells
-            .sort_by_cached_key(|row| row[0].parse::<Member>().map(|m| m.key()).ok());
-        let rate = |count: &dyn Fn(&str) -> u64| {
-            let rate = row::failure_rate(count("inputs") - count("ok"), count("inputs"));
-            csv_text(&[rate]).expect("a number").trim_end().to_string()
-        };
-        let keys = ["family", "subfamily", "times", "precision"];
-        let parts = join::read(shards, "flip_order")?;
-        let mut rows = join::added(&parts, &keys, &["longest_list"], ("failure_rate", &rate))?;
-        rows.cells.sort_by_cached_key(|row| {
-            let family = FAMILIES.iter().position(|f| f.name == row[0]);
-            let subfamilies = family.map_or(&[][..], |f| FAMILIES[f].subfamilies);
-            (
-                family,
-                subfamilies.iter().position(|s| *s == row[1]),
-                plan::place(&row[2]),
-            )
-        });
-        Ok(vec![
-            results.text("flip_order.csv", &rows.to_csv())?,
-            results.text("flip_order-failures.csv", &all.to_csv())?,
-        ])
+        merge::merge(shards, results)
     }
 }
 
-/// The failure rate of rounded times against their precision, by family. Families without a failure at some precision
-/// have no point there, because the axes are logarithmic.
+/// The failure rate of times rounded in every operation (`bits:N`) against their precision, by family. Families
+/// without a failure at some precision have no point there, because the axes are logarithmic.
 fn precision(rows: &[Summary]) -> Result<String, PlotError> {
     let series = FAMILIES.iter().map(|family| {
         let of_family = rows
             .iter()
-            .filter(|r| r.family == family.name && r.subfamily == ALL);
+            .filter(|r| r.family == family.name && r.subfamily == ALL)
+            .filter(|r| r.numbers.starts_with("bits:"));
         let points = of_family.filter_map(|r| Some((f64::from(r.precision?), r.failure_rate)));
         Series::new(family.name, points.filter(|&(_, rate)| rate > 0.0))
     });

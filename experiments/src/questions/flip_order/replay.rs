@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn a_replay_tells_the_order_and_the_end() {
         let member: Member = "prism/end:78".parse().expect("a name");
-        let text = replay(member, FlipOrder::new(NumberType::F64));
+        let text = replay(member, FlipOrder::new(NumberType::F64Plain));
         assert!(text.contains("schoenhardt: 7 tets, 7 vertices"), "{text}");
         assert!(!text.contains(" 0 pairs in the wrong order"), "{text}");
         let text = replay(member, FlipOrder::EXACT);
