@@ -17,17 +17,12 @@ pub trait FlipNumbers {
     /// The flip times in this type, for vertices in any store.
     type Times<'a, P: PointStore + 'a>: FlipTimes;
 
-    /// Whether large regions may be flipped in a copy.
-    const MAY_COPY: bool = false;
+    /// Whether large regions are flipped in a copy, which pays if evaluating a time is cheap.
+    const IN_COPY: bool = false;
 
     /// Whether all predicates are rounded while a region is flipped: sides of the plane, convexity of flips, insphere
     /// of the second patch. Then points are seen as [`FlipNumbers::view`] says.
     const NAIVE: bool = false;
-
-    /// Whether they are, where they may be. That pays if evaluating a time is cheap.
-    fn in_copy(&self) -> bool {
-        Self::MAY_COPY
-    }
 
     /// Makes the flip times of a region.
     fn times<'a, P: PointStore>(&self, motion: &'a PolygonMotion<'a, P>) -> Self::Times<'a, P>;
@@ -66,7 +61,7 @@ pub struct FilteredNumbers;
 impl FlipNumbers for FilteredNumbers {
     type Times<'a, P: PointStore + 'a> = FilteredTimes<'a, P>;
 
-    const MAY_COPY: bool = true;
+    const IN_COPY: bool = true;
 
     fn times<'a, P: PointStore>(&self, motion: &'a PolygonMotion<'a, P>) -> Self::Times<'a, P> {
         FilteredTimes::new(motion)
@@ -95,12 +90,6 @@ impl<N> RoundedNumbers<N> {
 
 impl<N: Float> FlipNumbers for RoundedNumbers<N> {
     type Times<'a, P: PointStore + 'a> = RoundedTimes<'a, P, N>;
-
-    const MAY_COPY: bool = true;
-
-    fn in_copy(&self) -> bool {
-        self.rules.copy
-    }
 
     fn times<'a, P: PointStore>(&self, motion: &'a PolygonMotion<'a, P>) -> Self::Times<'a, P> {
         RoundedTimes::new(motion, self.evaluation, self.rules)

@@ -48,7 +48,7 @@ impl<'a, P: PointStore, N: Float> RoundedTimes<'a, P, N> {
     pub fn new(
         motion: &'a PolygonMotion<'a, P>,
         evaluation: Evaluation,
-        Rules { ties, queue, .. }: Rules,
+        Rules { ties, queue }: Rules,
     ) -> Self {
         RoundedTimes {
             filter: Filter::new(motion),

@@ -126,8 +126,7 @@ impl<P: PointStore> NumberTask for Job<'_, P> {
     type Output = Flipped;
 
     fn with<T: FlipNumbers>(self, numbers: &T) -> Flipped {
-        let is_large = self.region.tets.len() >= COPY;
-        if T::MAY_COPY && numbers.in_copy() && self.observer.is_none() && is_large {
+        if T::IN_COPY && self.observer.is_none() && self.region.tets.len() >= COPY {
             return self.insert_in_copy(numbers);
         }
         if !T::NAIVE {

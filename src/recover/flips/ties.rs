@@ -41,20 +41,13 @@ pub struct Rules {
     pub ties: TieRule,
     /// For the queue.
     pub queue: QueueRule,
-    /// Whether large regions are flipped in a copy, as with filtered times (`copy=yes`). It makes no difference but to
-    /// speed.
-    pub copy: bool,
 }
 
 impl Rules {
     /// All combinations of rules for ties and for the queue, the paper's first.
     pub const ALL: [Rules; 6] = {
         const fn rules(ties: TieRule, queue: QueueRule) -> Rules {
-            Rules {
-                ties,
-                queue,
-                copy: false,
-            }
+            Rules { ties, queue }
         }
         [
             rules(TieRule::Arrival, QueueRule::All),
@@ -79,10 +72,7 @@ impl fmt::Display for Rules {
             QueueRule::All => {}
             QueueRule::Possible => f.write_str(",queue=possible")?,
         }
-        match self.copy {
-            false => Ok(()),
-            true => f.write_str(",copy=yes"),
-        }
+        Ok(())
     }
 }
 
@@ -105,8 +95,6 @@ impl FromStr for Rules {
                 "ties=circuit" => rules.ties = TieRule::Circuit,
                 "queue=all" => rules.queue = QueueRule::All,
                 "queue=possible" => rules.queue = QueueRule::Possible,
-                "copy=no" => rules.copy = false,
-                "copy=yes" => rules.copy = true,
                 _ => return Err(UnknownRule(word.to_owned())),
             }
         }
@@ -227,16 +215,8 @@ mod tests {
                 continue;
             };
             assert_eq!(words.parse(), Ok(rules), "{words}");
-            let copy = Rules {
-                copy: true,
-                ..rules
-            };
-            assert_eq!(format!("{words},copy=yes").parse(), Ok(copy));
         }
-        assert_eq!(
-            "queue=all,ties=arrival,copy=no".parse(),
-            Ok(Rules::default())
-        );
+        assert_eq!("queue=all,ties=arrival".parse(), Ok(Rules::default()));
         assert!("ties=".parse::<Rules>().is_err());
     }
 }

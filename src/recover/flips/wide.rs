@@ -40,7 +40,7 @@ impl<'a, P: PointStore> WideTimes<'a, P> {
         bits: Bits,
         motion: &'a PolygonMotion<'a, P>,
         evaluation: Evaluation,
-        Rules { ties, queue, .. }: Rules,
+        Rules { ties, queue }: Rules,
     ) -> Self {
         WideTimes {
             times: bits.run(Make { motion, evaluation }),

@@ -79,13 +79,12 @@ fn inputs(slab: &[(u64, u64)], lattice: &[(u64, u64)], sphere: &[(u64, u64)]) ->
     KINDS.iter().flat_map(of_kind).collect()
 }
 
-/// Rounded times in the queue of the exact order, which has possible events only, and in a copy of the region like
-/// filtered ones: what is left between these two is the price of exact keys. (It is not a pure one: rounded times take
-/// the sign of D from the filter, and evaluate N and D once more.)
+/// Rounded times in the queue of the exact order, which has possible events only. What is left between these and
+/// filtered times is not the price of exact keys alone: filtered flips are done in a copy of the region, if it is large,
+/// and rounded times take the sign of D from the filter and evaluate N and D once more.
 pub fn in_same_queue() -> FlipOrder {
     FlipOrder::new(NumberType::F64Plain).with_rules(Rules {
         queue: QueueRule::Possible,
-        copy: true,
         ..Rules::default()
     })
 }
@@ -163,7 +162,7 @@ mod tests {
         };
         assert_eq!(
             names(100_000),
-            "flip f64:plain, flip f32, flip filtered, flip f64:plain,queue=possible,copy=yes, cavity"
+            "flip f64:plain, flip f32, flip filtered, flip f64:plain,queue=possible, cavity"
         );
         assert!(names(30_000).contains("exact") && !names(30_000).contains("gift"));
         assert_eq!(methods_for(500), methods());

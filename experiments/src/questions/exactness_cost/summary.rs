@@ -178,7 +178,7 @@ pub fn table(summaries: &[Summary], methods: &[Method]) -> String {
 
 fn short(method: &str) -> &str {
     match method.strip_prefix("flip ") {
-        Some(times) if times.contains("copy=yes") => "same queue",
+        Some(times) if times.contains("queue=possible") => "same queue",
         Some(times) => times,
         None => method,
     }
