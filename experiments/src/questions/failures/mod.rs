@@ -40,7 +40,8 @@ impl Experiment for Failures {
             if let Some(svg) = draw::picture(case) {
                 let m = &case.member;
                 let input = format!("{}-{}-{}", m.family(), m.subfamily(), m.seed);
-                row.picture = format!("failures-{input}-{}.svg", case.times);
+                let times = case.times.to_string().replace(':', "-");
+                row.picture = format!("failures-{input}-{times}.svg");
                 answer.file(&row.picture, &svg)?;
             }
             rows.push(row);
