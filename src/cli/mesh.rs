@@ -33,9 +33,12 @@ pub(crate) struct MeshArguments {
     /// The number type of the flip queue (with --insert flip).
     ///
     /// Exact: `filtered` (mostly decided by floats), `exact` (dyadic), `rational`, `rug` (GMP, only if built with the
-    /// feature rug). Rounded, which can fail: `f64` (the paper's), `f32`, `bits:N` (N mantissa bits). All predicates
-    /// of an insertion rounded, which fails oftener: `naive` (doubles), `naive:N`. N is 8, 11, 14, 16, 18, 20, 22,
-    /// 24, 26, 28, 32, 36, 40, 44, 48, 53, 64, 80, 106, 160 or 256.
+    /// feature rug). Rounded, which can fail: `f64:paper` or `f64` (adaptive predicates, as in the paper), `f64:tetgen`
+    /// (the same with weights in plain doubles), `f64:plain`, `f32`, `bits:N` (N mantissa bits; every operation
+    /// rounded), `f64:once`, `f32:once`, `once:N` (two exact determinants, each rounded once); with the rules
+    /// `,ties=arrival|perturbed|circuit` and `,queue=all|possible`. All predicates of an insertion rounded, which fails
+    /// oftener: `naive` (doubles), `naive:N`. N is 8, 11, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40, 44, 48, 53, 64,
+    /// 80, 106, 160 or 256.
     /// [default: filtered]
     #[arg(long, value_name = "TYPE")]
     times: Option<FlipOrder>,
