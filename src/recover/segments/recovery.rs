@@ -25,9 +25,9 @@ use std::collections::BinaryHeap;
 /// need one every few ulps.
 pub(super) const MOST_VERTICES_PER_SEGMENT: usize = 1 << 14;
 
-/// How many Steiner points are too many for an input of n vertices. Long parallel edges may need a tenth of n² (those of
-/// a cylinder whose faces are flat only to rounding do), and few need more, where vertices are farther from each other
-/// than rounding; where they are not, there is hardly an end.
+/// How many Steiner points are too many for an input of n vertices. Long parallel edges may need a tenth of n² (those
+/// of a cylinder whose faces are flat only to rounding do), and few need more, where vertices are farther from each
+/// other than rounding; where they are not, there is hardly an end.
 fn most_points(n: usize) -> usize {
     (1 << 12) + 32 * n + n.saturating_mul(n) / 4
 }
