@@ -1,10 +1,10 @@
 //! Files: PLCs in, in the formats of TetGen (`.poly`, `.smesh`, `.node`), OFF, STL, PLY, OBJ and Medit (`.mesh`);
 //! meshes out and in.
 //!
-//! Every reader takes the bytes of a file and gives a [`Plc`] with notes on what was forgiven, or a [`FormatError`]
-//! with a line or an offset. Readers are linear in the file's size whatever its header says, and check the syntax
-//! alone; [`crate::plc::Complex::new`] checks the geometry. What a reader accepts has at least one vertex, finite
-//! coordinates, and no corner out of range.
+//! Every reader takes the bytes of a file and gives a [`Plc`](crate::exchange::Plc) with notes on what was forgiven, or
+//! a [`FormatError`] with a line or an offset. Readers are linear in the file's size whatever its header says, and
+//! check the syntax alone; [`crate::plc::Complex::new`] checks the geometry. What a reader accepts has at least one
+//! vertex, finite coordinates, and no corner out of range.
 
 mod ahead;
 mod bytes;
