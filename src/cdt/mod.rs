@@ -304,8 +304,8 @@ impl Cdt {
     /// boundary, can always be deleted.
     ///
     /// ```
-    /// # use tetflip::{cdt::Cdt, error::DeletionRefused, mesh::VertexId, plc::{Facet, Plc}};
-    /// # use tetflip::{recover::polygons::{FlipOrder, Insertion}, report::Report};
+    /// # use tetflip::cdt::{Cdt, Insertion, flips::FlipOrder};
+    /// # use tetflip::{error::DeletionRefused, exchange::{Facet, Plc}, mesh::VertexId, report::Report};
     /// // A triangle, and a pair of vertices whose common edge passes through it.
     /// let vertices = vec![[0., 0., 0.], [9., 0., 0.], [0., 9., 0.], [2., 2., 1.], [2., 2., -1.]];
     /// let triangle = [0, 1, 2].map(VertexId).to_vec();
