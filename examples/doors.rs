@@ -2,8 +2,9 @@
 
 use std::error::Error;
 use tetflip::cdt::Cdt;
+use tetflip::cdt::Insertion;
+use tetflip::cdt::flips::FlipOrder;
 use tetflip::format::read_plc;
-use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 
 /// The wall's place among the facets of the file.

@@ -6,11 +6,13 @@ use std::cmp::Ordering;
 use std::error::Error;
 use std::ops::{Add, Mul, Sub};
 use tetflip::cdt::Cdt;
+use tetflip::cdt::Insertion;
+use tetflip::cdt::flips::{
+    Evaluation, ExactNumbers, FlipNumbers, FlipOrder, RoundedNumbers, Rules,
+};
 use tetflip::exchange::{Facet, Plc};
 use tetflip::mesh::VertexId;
 use tetflip::number::{Exact, Float, Number, Sign};
-use tetflip::recover::flips::{Evaluation, ExactNumbers, FlipNumbers, RoundedNumbers, Rules};
-use tetflip::recover::polygons::{FlipOrder, Insertion};
 use tetflip::report::Report;
 
 /// An integer number of sixteenths, squares of sixteenths, …: m·16^(−k). Exact for small coordinates with few binary

@@ -1,10 +1,13 @@
 //! What a run did: counts and seconds per phase, as plain documented structs. (The library reads a clock here and in
 //! [`crate::clock`], for the tasks of polygon insertion, and nowhere else.)
 
+pub use crate::recover::flatten::FlatteningCounts;
+pub use crate::recover::flips::FlipCounts;
+pub use crate::recover::polygons::PolygonCounts;
+
 use crate::exchange::Note;
 use crate::predicate::Steiner;
-use crate::recover::flatten::FlatteningCounts;
-use crate::recover::polygons::{Insertion, PolygonCounts};
+use crate::recover::polygons::Insertion;
 use serde::Serialize;
 use std::time::Instant;
 

@@ -12,6 +12,11 @@ mod interpolation;
 mod mesh_error;
 mod open;
 
+pub mod flips;
+
+pub use crate::predicate::Steiner;
+pub use crate::recover::polygons::Insertion;
+pub use crate::update::DeletionCounts;
 pub use call::{MeshOptions, Meshed, SteinerChoice, mesh, mesh_with_progress};
 pub use mesh_error::MeshError;
 
@@ -22,14 +27,14 @@ use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
 use crate::mesh::{TetMesh, VertexId};
 use crate::plc::{Complex, PlcError};
-use crate::predicate::{DoublePoints, PointStore, Steiner};
+use crate::predicate::{DoublePoints, PointStore};
 use crate::recover::flatten::flatten;
 use crate::recover::flips::{FlipObserver, FlipRegion};
-use crate::recover::polygons::{FlipOrder, Insertion, PolygonCounts, PolygonInsertion};
+use crate::recover::polygons::{FlipOrder, PolygonCounts, PolygonInsertion};
 use crate::recover::segments::{GoOn, recover_segments};
 use crate::recover::workspace::{ConstrainedMesh, EdgeProtectedPlc};
 use crate::report::{Phase, Report};
-use crate::update::{DeletionCounts, PolygonDeletion};
+use crate::update::PolygonDeletion;
 use open::encloses_nothing;
 use std::cell::OnceCell;
 use std::sync::Arc;

@@ -19,7 +19,10 @@ mod parallel;
 mod removal;
 mod star;
 
-pub use build::{DelaunayError, delaunay, delaunay_by};
+pub use build::DelaunayError;
+#[doc(hidden)]
+pub use build::{delaunay, delaunay_by};
+#[doc(hidden)]
 pub use insert::Delaunay;
 pub(crate) use local::is_locally_delaunay;
 pub use of_points::{PointsDelaunay, delaunay_of_points};

@@ -10,6 +10,7 @@ mod gave_up;
 mod invalid;
 mod names;
 
+pub use crate::plc::PlcError;
 pub use deletion::{DeletionRefused, Obstacle};
 pub use domain::DomainError;
 pub use gave_up::{GaveUp, Nearest, NotFlatReason};
@@ -20,7 +21,6 @@ pub use names::PointKind;
 
 use crate::delaunay::DelaunayError;
 use crate::exchange::Plc;
-use crate::plc::PlcError;
 use std::fmt;
 
 /// Why there is no tetrahedralization.

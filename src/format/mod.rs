@@ -44,13 +44,16 @@ pub use conflicts_vtu::write_conflicts;
 pub use error::{FilePosition, FormatError, Reason};
 pub use medit::read_medit;
 pub use mesh_error::{MeshFileError, MeshLineError, UnwritableMesh};
-pub use mesh_file::{mesh_paths, read_mesh, write_mesh, write_mesh_to};
+#[doc(hidden)]
+pub use mesh_file::mesh_paths;
+pub use mesh_file::{read_mesh, write_mesh, write_mesh_to};
 pub use obj::read_obj;
 pub use off::read_off;
 pub use plc_file::{PlcFormat, node_path, read_plc, read_plc_as, read_plc_bytes};
 pub use ply::read_ply;
 pub use poly::{read_node, read_poly, read_smesh};
 pub use poly_file::write_poly;
+#[doc(hidden)]
 pub use staged::write_complete;
 pub use stl::read_stl;
 

@@ -12,14 +12,19 @@ mod replace;
 mod topology;
 
 pub(crate) use canonical::{canonical_face, canonical_tet};
+#[doc(hidden)]
 pub use check::TopologyError;
 pub(crate) use flip::behind;
+pub use ids::VertexId;
 pub(crate) use ids::any_infinite;
-pub use ids::{Corner, TetId, VertexId};
+#[doc(hidden)]
+pub use ids::{Corner, TetId};
+#[doc(hidden)]
 pub use incidence::Incidence;
 pub(crate) use least::{Groups, SimplexIndex, sort_by_least};
 pub(crate) use parts::{WALL, is_wall};
 pub(crate) use topology::slot_of;
+#[doc(hidden)]
 pub use topology::{FACET, NEXT, TetMesh};
 
 #[cfg(test)]

@@ -32,10 +32,14 @@ pub(crate) use decide::{Polynomial, decide};
 pub use dyadic::Dyadic;
 pub use float::Float;
 pub(crate) use integer::Integer;
+#[doc(hidden)]
 pub use parameter::Parameter;
 pub use sign::Sign;
+#[doc(hidden)]
 pub use vector::Vec3;
-pub use wide::{Bits, UnknownBits, Wide, WidthTask};
+#[doc(hidden)]
+pub use wide::WidthTask;
+pub use wide::{Bits, UnknownBits, Wide};
 
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};

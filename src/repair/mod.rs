@@ -150,6 +150,7 @@ pub fn repair_beside<'p>(
 }
 
 /// How many conflicts a refusal lists at most.
+#[doc(hidden)]
 pub const LISTED: usize = 8;
 
 /// Repairs contacts of different parts.
