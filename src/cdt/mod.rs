@@ -167,8 +167,9 @@ impl Cdt {
                 &mut subsegments,
                 &mut incidence,
                 &mut report.flattening,
+                go_on,
             )
-        });
+        })?;
         report.steiner_points = points.len() - plc.vertices.len();
         let polygons = pieces.complex.polygons.len();
         Ok(Cdt {

@@ -34,10 +34,11 @@ pub use pieces::Pieces;
 pub(crate) use plane::Plane;
 
 use crate::delaunay::Delaunay;
+use crate::error::Failure;
 use crate::mesh::{Groups, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
 use crate::predicate::{GrowingStore, PointStore};
-use crate::recover::segments::{Request, Subsegments, add_steiner_points};
+use crate::recover::segments::{GoOn, Request, Subsegments, add_steiner_points};
 use cut::Cut;
 use figure::Figure;
 use neighbours::Neighbours;
@@ -100,7 +101,11 @@ impl PolygonsAt {
 }
 
 /// Cuts all polygons that are not flat, inserting Steiner points where that is impossible. If it would take too many of
-/// those, none is inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]).
+/// those, none is inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]). `go_on` is
+/// told in each round how many Steiner points there are.
+///
+/// # Errors
+/// [`Failure::Stopped`] if `go_on` says so.
 pub fn flatten<P: GrowingStore>(
     complex: &Arc<Complex>,
     points: &mut P,
@@ -108,7 +113,8 @@ pub fn flatten<P: GrowingStore>(
     subsegments: &mut Subsegments,
     incidence: &mut Incidence,
     counts: &mut FlatteningCounts,
-) -> Pieces {
+    go_on: &GoOn<'_>,
+) -> Result<Pieces, Failure> {
     let n = complex.polygons.len();
     let mut state = State {
         complex,
@@ -122,7 +128,7 @@ pub fn flatten<P: GrowingStore>(
     };
     let mut requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), 0..n);
     if state.bad.is_empty() {
-        return state.collect(counts);
+        return Ok(state.collect(counts));
     }
     let before = points.len();
     let most = before + MOST_POINTS + before / 4;
@@ -130,6 +136,9 @@ pub fn flatten<P: GrowingStore>(
     state.polygons_at = Some(state.polygons_at(subsegments, before));
     let mut refined = FlatteningCounts::default();
     while !state.bad.is_empty() {
+        if !go_on(points.len() - subsegments.first_steiner()) {
+            return Err(Failure::Stopped);
+        }
         let positions: Vec<Request> = requests.iter().map(|r| r.1).collect();
         let added = add_steiner_points(&positions, points, delaunay, subsegments, incidence);
         let added = added.ok().filter(|added| {
@@ -143,7 +152,7 @@ pub fn flatten<P: GrowingStore>(
             state.neighbours = Neighbours::default();
             state.polygons_at = None;
             state.cut_all(points, &delaunay.mesh, (subsegments, incidence), 0..n);
-            return state.collect(counts);
+            return Ok(state.collect(counts));
         };
         refined.rounds += 1;
         for ((f, request), vertex) in requests.into_iter().zip(added.vertices) {
@@ -161,7 +170,7 @@ pub fn flatten<P: GrowingStore>(
         requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), again);
     }
     *counts = refined;
-    state.collect(counts)
+    Ok(state.collect(counts))
 }
 
 impl State<'_> {

@@ -238,7 +238,7 @@ impl Subsegments {
     }
 
     /// The first Steiner point.
-    pub(super) fn first_steiner(&self) -> usize {
+    pub(crate) fn first_steiner(&self) -> usize {
         self.first_steiner
     }
 
