@@ -5,7 +5,7 @@ use crate::frame::Experiment;
 use crate::questions::*;
 
 /// All experiments, in the order in which they are run.
-pub const ALL: [&dyn Experiment; 13] = [
+pub const ALL: [&dyn Experiment; 14] = [
     &models::Models,
     &fig8::Fig8,
     &fig9::Fig9,
@@ -14,6 +14,7 @@ pub const ALL: [&dyn Experiment; 13] = [
     &growth::Growth,
     &exactness_cost::ExactnessCost,
     &flip_order::FlipOrder,
+    &flip_models::FlipModels,
     &failures::Failures,
     &updates::Updates,
     &steiner::Steiner,

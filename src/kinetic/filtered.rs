@@ -47,14 +47,20 @@ impl<const K: usize> InQuanta<K> {
         }
     }
 
+    /// Which of two times comes first without the perturbation: the sign of t_0.
+    #[inline(always)]
+    fn compare_quotients(&self, other: &Self) -> Ordering {
+        let (a, b) = (self, other);
+        product(b.numerator, a.denominator).cmp(&product(a.numerator, b.denominator))
+    }
+
     /// Which of two times comes first: the sign of t_0, then those of t_v. All products are of numbers of up to 53
     /// bits.
     fn compare(&self, other: &Self, ties: &mut u64) -> Ordering {
-        let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
         let (a, b) = (self, other);
-        let t0 = product(a.numerator, b.denominator).cmp(&product(b.numerator, a.denominator));
+        let t0 = a.compare_quotients(b);
         if t0.is_ne() {
-            return t0.reverse();
+            return t0;
         }
         *ties += 1;
         let identities = |x: &Self| x.terms.map(|term| term.0);
@@ -64,6 +70,11 @@ impl<const K: usize> InQuanta<K> {
             of_a.cmp(&of_b).reverse()
         })
     }
+}
+
+#[inline(always)]
+fn product(x: i64, y: i64) -> i128 {
+    i128::from(x) * i128::from(y)
 }
 
 /// An exact order that is mostly decided by floats.
@@ -198,6 +209,18 @@ impl<M: Motion<Dyadic, K>, const K: usize> TimeOrder for FilteredOrder<M, K> {
         a: Timed<M::Event, FilteredTime>,
         b: Timed<M::Event, FilteredTime>,
     ) -> Ordering {
+        self.decide::<true>(a, b)
+    }
+}
+
+impl<M: Motion<Dyadic, K>, const K: usize> FilteredOrder<M, K> {
+    /// Which of two times comes first, exactly; of equal ones that of the perturbation, if it is asked for.
+    #[inline(always)]
+    pub(super) fn decide<const PERTURBED: bool>(
+        &mut self,
+        a: Timed<M::Event, FilteredTime>,
+        b: Timed<M::Event, FilteredTime>,
+    ) -> Ordering {
         self.compared_exactly += 1;
         if M::is_one_circuit(a.0, b.0) {
             self.ties += 1;
@@ -206,12 +229,16 @@ impl<M: Motion<Dyadic, K>, const K: usize> TimeOrder for FilteredOrder<M, K> {
         }
         let (i, j) = (self.exactly(a), self.exactly(b));
         if let (Exactly::Integers(qa), Exactly::Integers(qb)) = (&self.kept[i], &self.kept[j]) {
+            if !PERTURBED {
+                return qa.compare_quotients(qb);
+            }
             let (ties, order) = (self.ties, qa.compare(qb, &mut self.ties));
             self.one_circuit += u64::from(order.is_eq() && self.ties > ties);
             return order;
         }
         let (i, j) = (self.big(a), self.big(b));
         match (&self.kept[i], &self.kept[j]) {
+            (Exactly::Big(qa), Exactly::Big(qb)) if !PERTURBED => qa.compare(qb),
             (Exactly::Big(qa), Exactly::Big(qb)) => {
                 self.exact.compare_quotients((a.0, qa), (b.0, qb))
             }

@@ -66,6 +66,26 @@ pub fn built_in(quick: bool) -> Vec<Model> {
     papers.chain(others).collect()
 }
 
+/// Small models of every kind, with several seeds; with `quick`, one seed and a few facets.
+pub fn small(quick: bool) -> Vec<Model> {
+    let (seeds, size) = if quick { (1..=1, 60) } else { (11..=20, 400) };
+    let of_kind = |kind: Kind| {
+        // Chazelle's polyhedron needs quadratically many Steiner points.
+        let size = if kind == Kind::Chazelle {
+            size / 10
+        } else {
+            size
+        };
+        seeds.clone().map(move |seed| Model {
+            name: format!("{kind}/{seed}/{size}"),
+            source: "generated",
+            beside: "",
+            recipe: Recipe::Generated(kind, seed, size),
+        })
+    };
+    Kind::ALL.into_iter().flat_map(of_kind).collect()
+}
+
 /// The built-in models, and those of the user's directory if one is named.
 ///
 /// # Errors
@@ -133,11 +153,15 @@ mod tests {
 
     #[test]
     fn names_are_different_and_models_of_about_the_size() {
-        let models = built_in(false);
+        let mut models = built_in(false);
+        models.extend(small(false));
         let mut names: Vec<&str> = models.iter().map(|m| &*m.name).collect();
         names.sort_unstable();
         names.dedup();
-        assert_eq!(names.len(), PAPERS.len() + OTHERS.len());
+        assert_eq!(
+            names.len(),
+            PAPERS.len() + OTHERS.len() + 10 * Kind::ALL.len()
+        );
         for model in models.iter().filter(|m| !m.beside.is_empty()) {
             let Recipe::Generated(_, _, size) = model.recipe else {
                 panic!("a generated one");

@@ -5,3 +5,4 @@ pub mod outcome;
 pub mod rounds;
 pub mod sample;
 pub mod threads;
+pub mod wilson;

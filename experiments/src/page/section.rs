@@ -117,7 +117,7 @@ fn outcome(stem: &str, files: &Files) -> String {
 fn table(files: &Files, guide: &Guide, stem: &str, name: &str, caption: &str) -> String {
     match files.table(name) {
         Ok(sheet) => {
-            let caption = format!("{} <code>{name}.csv</code>.", escape(caption));
+            let caption = format!("{} {}", escape(caption), link(name));
             Table::html(&sheet, guide, stem, name, &caption)
         }
         Err(missing) => absent(&missing),
@@ -147,8 +147,14 @@ fn rows(
     };
     let (caption, table) = (escape(caption), Table::html(&sheet, guide, stem, name, ""));
     format!(
-        "<details><summary>{caption} <code>{name}.csv</code>, {shown}</summary>\n{table}</details>\n"
+        "<details><summary>{caption} {}, {shown}</summary>\n{table}</details>\n",
+        link(name)
     )
+}
+
+/// The file itself, beside the page.
+fn link(name: &str) -> String {
+    format!("<a href=\"{name}.csv\"><code>{name}.csv</code></a>")
 }
 
 /// The ledger, with the questions.

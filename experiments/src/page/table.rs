@@ -145,14 +145,18 @@ pub fn pivot(sheet: &Sheet, caption: &str, pivot: &Pivot) -> Result<String, Shee
         for column in &columns {
             let value = row.only(&format!("{across}={column}"))?.text(pivot.value)?;
             // Nothing is told by the digits of zero.
-            let value = if value.parse() == Ok(0.0) { "0" } else { value };
-            body += &format!("<td class=\"n\">{}</td>", escape(value));
+            let value = if value.parse() == Ok(0.0) {
+                "0".to_string()
+            } else {
+                number(value)
+            };
+            body += &format!("<td class=\"n\">{}</td>", escape(&value));
         }
         body += "</tr>\n";
     }
     let (caption, file) = (escape(caption), &sheet.file);
     Ok(format!(
-        "<p class=\"caption\">{caption} <code>{file}</code></p>\n<div class=\"scroll whole\" tabindex=\"0\"><table \
+        "<p class=\"caption\">{caption} <a href=\"{file}\"><code>{file}</code></a></p>\n<div class=\"scroll whole\" tabindex=\"0\"><table \
          class=\"pivot\">\
          <thead><tr><th scope=\"col\">{down}</th>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>\n"
     ))
@@ -174,9 +178,45 @@ fn header(guide: &Guide, stem: &str, column: &str, numeric: bool) -> String {
     format!("<th scope=\"col\"{class}{title}><span>{name}</span>{unit}</th>")
 }
 
+/// A number as it is read: whole ones in groups of three digits, others with four digits, like `tables.js`.
+fn number(cell: &str) -> String {
+    let Ok(x) = cell.parse::<f64>() else {
+        return cell.to_string();
+    };
+    let digits = cell.trim_start_matches('-');
+    if digits.bytes().all(|b| b.is_ascii_digit()) {
+        if digits.len() < 5 {
+            return cell.to_string();
+        }
+        let mut grouped = String::from(&cell[..cell.len() - digits.len()]);
+        for (i, digit) in digits.chars().enumerate() {
+            if i > 0 && (digits.len() - i).is_multiple_of(3) {
+                grouped.push(',');
+            }
+            grouped.push(digit);
+        }
+        return grouped;
+    }
+    if digits.len() <= 6 || x == 0.0 {
+        return cell.to_string();
+    }
+    match x.abs() {
+        size if (1e-4..1e4).contains(&size) => {
+            let places = (3 - size.log10().floor() as i32).max(0) as usize;
+            let text = format!("{x:.places$}");
+            match text.contains('.') {
+                true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
+                false => text,
+            }
+        }
+        size if size >= 1e4 => number(&format!("{x:.0}")),
+        _ => format!("{x:.3e}"),
+    }
+}
+
 fn data_cell(cell: &str, numeric: bool) -> String {
     if numeric {
-        return format!("<td class=\"n\">{}</td>", escape(cell));
+        return format!("<td class=\"n\">{}</td>", escape(&number(cell)));
     }
     match cell {
         "true" => "<td>yes</td>".to_string(),
@@ -236,6 +276,26 @@ mod tests {
         )
         .expect_err("no such column");
         assert_eq!(none.to_string(), "t.csv: no column `no`");
+    }
+
+    #[test]
+    fn numbers_are_formatted() {
+        let pairs = [
+            ("1234", "1234"),
+            ("1234567", "1,234,567"),
+            ("-12345", "-12,345"),
+            ("0.248642", "0.2486"),
+            ("0.25", "0.25"),
+            ("1.5000000", "1.5"),
+            ("12345.678", "12,346"),
+            ("0.0000012345", "1.234e-6"),
+            ("2.5e-7", "2.5e-7"),
+            ("1.0", "1.0"),
+            ("x", "x"),
+        ];
+        for (cell, shown) in pairs {
+            assert_eq!(number(cell), shown, "{cell}");
+        }
     }
 
     #[test]

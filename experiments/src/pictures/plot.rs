@@ -80,18 +80,43 @@ pub struct Plot {
     pub y_label: &'static str,
     /// The scale of the axes.
     pub scale: Scale,
-    /// The points; the series differ in colour and, as long as there are no more than three, in shape.
+    /// The points. A method, or a family, has the same colour and shape in all plots.
     pub series: Vec<Series>,
     /// Grey lines through their points, for comparison.
     pub guides: Vec<Series>,
 }
 
 /// Width and height of a plot in pixels.
-const SIZE: (u32, u32) = (720, 480);
+const SIZE: (u32, u32) = (880, 480);
 
-/// Okabe & Ito's colours that the colour-blind can tell apart, but for their yellow, which white swallows; then three
+/// The part of the width that is the legend's, beside the data.
+const LEGEND: u32 = 190;
+
+/// What plots show, in pairs of a name and the place of its colour and shape.
+const KNOWN: [(&str, usize); 18] = [
+    ("flip filtered", 0),
+    ("flip f64:plain", 1),
+    ("cavity", 2),
+    ("flip f32", 3),
+    ("flip exact", 4),
+    ("flip rug", 5),
+    ("TetGen cavity", 6),
+    ("TetGen flips", 7),
+    ("random", 0),
+    ("lattice", 1),
+    ("sphere", 2),
+    ("prism", 3),
+    ("crossing-planes", 4),
+    ("boxes", 5),
+    ("walls", 6),
+    ("near-coplanar", 7),
+    ("needles", 8),
+    ("rectangle", 9),
+];
+
+/// Okabe & Ito's colours that the colour-blind can tell apart, but for their yellow, which white swallows; then four
 /// darker ones. Series whose colours are alike differ in shape.
-const COLORS: [RGBColor; 9] = [
+const COLORS: [RGBColor; 10] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -101,6 +126,7 @@ const COLORS: [RGBColor; 9] = [
     RGBColor(0, 0, 0),
     RGBColor(130, 75, 20),
     RGBColor(115, 60, 190),
+    RGBColor(120, 120, 120),
 ];
 
 impl Plot {
@@ -179,7 +205,8 @@ impl Plot {
     {
         let root = SVGBackend::with_string(text, SIZE).into_drawing_area();
         root.fill(&WHITE)?;
-        let mut chart = ChartBuilder::on(&root)
+        let (left, right) = root.split_horizontally(SIZE.0 - LEGEND);
+        let mut chart = ChartBuilder::on(&left)
             .caption(self.title, ("sans-serif", 20))
             .margin(12)
             .x_label_area_size(48)
@@ -197,38 +224,53 @@ impl Plot {
             .bold_line_style(BLACK.mix(0.12))
             .draw()?;
         let grey = BLACK.mix(0.45).stroke_width(1);
+        let mut keys = Vec::new();
         for guide in &self.guides {
-            let line = LineSeries::new(guide.points.iter().copied(), grey);
-            let key = move |(x, y)| PathElement::new([(x, y), (x + 20, y)], grey);
-            chart.draw_series(line)?.label(&guide.name).legend(key);
+            chart.draw_series(LineSeries::new(guide.points.iter().copied(), grey))?;
+            keys.push((&guide.name, None));
         }
         for (i, series) in self.series.iter().enumerate() {
-            let color = COLORS[i % COLORS.len()];
-            let (filled, line) = (color.filled(), color.stroke_width(2));
+            let style = self.style(i);
             let points = series.points.iter().copied();
-            let key = |(x, y): (i32, i32)| (x + 10, y);
-            let drawn = match i % 3 {
-                0 => chart
-                    .draw_series(points.map(|p| Circle::new(p, 3, filled)))?
-                    .legend(move |p| Circle::new(key(p), 3, filled)),
-                1 => chart
-                    .draw_series(points.map(|p| TriangleMarker::new(p, 4, filled)))?
-                    .legend(move |p| TriangleMarker::new(key(p), 4, filled)),
-                _ => chart
-                    .draw_series(points.map(|p| Cross::new(p, 3, line)))?
-                    .legend(move |p| Cross::new(key(p), 3, line)),
-            };
-            drawn.label(&series.name);
+            let (filled, line) = (color(style).filled(), color(style).stroke_width(2));
+            match style % 3 {
+                0 => drop(chart.draw_series(points.map(|p| Circle::new(p, 3, filled)))?),
+                1 => drop(chart.draw_series(points.map(|p| TriangleMarker::new(p, 4, filled)))?),
+                _ => drop(chart.draw_series(points.map(|p| Cross::new(p, 3, line)))?),
+            }
+            keys.push((&series.name, Some(style)));
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.4))
-            .label_font(("sans-serif", 14))
-            .draw()?;
+        for ((name, style), y) in keys.into_iter().zip((56i32..).step_by(24)) {
+            let at = (14, y);
+            match style {
+                None => right.draw(&PathElement::new([(4, y), (24, y)], grey))?,
+                Some(i) if i % 3 == 0 => right.draw(&Circle::new(at, 3, color(i).filled()))?,
+                Some(i) if i % 3 == 1 => {
+                    right.draw(&TriangleMarker::new(at, 4, color(i).filled()))?
+                }
+                Some(i) => right.draw(&Cross::new(at, 3, color(i).stroke_width(2)))?,
+            }
+            right.draw(&Text::new(name.clone(), (32, y - 8), ("sans-serif", 14)))?;
+        }
         root.present()
     }
+
+    /// The place of a series' colour and shape: its own, if it is known, otherwise the first that no other has.
+    fn style(&self, i: usize) -> usize {
+        let known = |series: &Series| KNOWN.iter().find(|k| k.0 == series.name).map(|k| k.1);
+        let taken: Vec<usize> = self.series.iter().filter_map(known).collect();
+        let unknown = self.series[..i]
+            .iter()
+            .filter(|s| known(s).is_none())
+            .count();
+        let mut free = (0..).filter(|style| !taken.contains(style));
+        known(&self.series[i]).unwrap_or_else(|| free.nth(unknown).expect("endlessly many"))
+    }
+}
+
+/// The colour of a style.
+fn color(style: usize) -> RGBColor {
+    COLORS[style % COLORS.len()]
 }
 
 /// A tick's number: plain where that is short, otherwise with an exponent. Rounded to 6 digits, since ticks are sums of
@@ -302,6 +344,20 @@ mod tests {
         assert_eq!(plot.range(|p| p.0).map(|r| r.end), Ok(1.25e4));
         let svg = plot.svg().unwrap();
         assert!(svg.contains("n log n") && svg.matches("<polyline").count() > 1);
+    }
+
+    #[test]
+    fn a_method_has_one_style_everywhere_and_no_two_share_one() {
+        let of = |names: &[&str]| {
+            let mut plot = plot(Scale::Linear, POINTS);
+            plot.series = names.iter().map(|n| Series::new(n, [(1.0, 1.0)])).collect();
+            (0..names.len()).map(|i| plot.style(i)).collect::<Vec<_>>()
+        };
+        assert_eq!(of(&["cavity", "flip exact"]), [2, 4]);
+        assert_eq!(
+            of(&["flip exact", "x", "cavity", "y", "flip filtered"]),
+            [4, 1, 2, 3, 0]
+        );
     }
 
     #[test]

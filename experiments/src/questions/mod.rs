@@ -4,6 +4,7 @@ pub mod exactness_cost;
 pub mod failures;
 pub mod fig8;
 pub mod fig9;
+pub mod flip_models;
 pub mod flip_order;
 pub mod growth;
 pub mod models;

@@ -17,6 +17,13 @@ pub enum Contestant {
         /// What it says of itself.
         version: String,
     },
+    /// TetGen 1.6 under its Python binding, which takes triangles only.
+    TetGen16 {
+        /// A Python that has the binding.
+        python: String,
+        /// Of the binding.
+        version: String,
+    },
     /// gmsh's parallel Delaunay kernel, points only.
     Hxt {
         /// A Python that has gmsh.
@@ -62,6 +69,7 @@ impl Contestant {
         match self {
             Contestant::Ours(..) => "tetflip",
             Contestant::TetGen { .. } => "tetgen",
+            Contestant::TetGen16 { .. } => "tetgen-1.6",
             Contestant::Hxt { .. } => "hxt",
         }
     }
@@ -70,7 +78,7 @@ impl Contestant {
     pub fn method(&self) -> String {
         match self {
             Contestant::Ours(what, _) => what.word().to_string(),
-            Contestant::TetGen { .. } => "cavity".to_string(),
+            Contestant::TetGen { .. } | Contestant::TetGen16 { .. } => "cavity".to_string(),
             Contestant::Hxt { .. } => "delaunay".to_string(),
         }
     }
@@ -79,7 +87,9 @@ impl Contestant {
     pub fn version(&self) -> String {
         match self {
             Contestant::Ours(..) => env!("CARGO_PKG_VERSION").to_string(),
-            Contestant::TetGen { version, .. } | Contestant::Hxt { version, .. } => version.clone(),
+            Contestant::TetGen { version, .. }
+            | Contestant::TetGen16 { version, .. }
+            | Contestant::Hxt { version, .. } => version.clone(),
         }
     }
 
@@ -87,7 +97,7 @@ impl Contestant {
     pub fn threads(&self) -> u32 {
         match self {
             Contestant::Ours(_, threads) | Contestant::Hxt { threads, .. } => *threads,
-            Contestant::TetGen { .. } => 1,
+            Contestant::TetGen { .. } | Contestant::TetGen16 { .. } => 1,
         }
     }
 }
@@ -105,7 +115,17 @@ pub fn contestants(context: &Context) -> (Vec<Contestant>, Vec<String>) {
         }),
         None => missing.push("tetgen (no such program)".to_string()),
     }
-    match gmsh_version(&context.python) {
+    match module_version(&context.python, "tetgen") {
+        Some(version) => programs.push(Contestant::TetGen16 {
+            python: context.python.clone(),
+            version: format!("1.6, binding {version}"),
+        }),
+        None => missing.push(format!(
+            "tetgen-1.6 ({} has no module tetgen)",
+            context.python
+        )),
+    }
+    match module_version(&context.python, "gmsh") {
         Some(version) => programs.extend([1, 2].map(|threads| Contestant::Hxt {
             python: context.python.clone(),
             version: version.clone(),
@@ -127,9 +147,10 @@ fn tetgen_version(program: &str) -> String {
     }
 }
 
-fn gmsh_version(python: &str) -> Option<String> {
+fn module_version(python: &str, module: &str) -> Option<String> {
     let output = Command::new(python)
-        .args(["-c", "import gmsh; print(gmsh.__version__)"])
+        .arg("-c")
+        .arg(format!("import {module}; print({module}.__version__)"))
         .stdin(Stdio::null())
         .stderr(Stdio::null())
         .output()

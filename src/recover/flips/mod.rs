@@ -7,6 +7,7 @@
 //!
 //! Large regions are flipped in a copy (`compact.rs`) if the number type asks for it and nobody observes.
 
+mod ablated;
 mod adaptive;
 mod compact;
 mod counts;
@@ -28,6 +29,9 @@ mod ties;
 mod time;
 mod wide;
 
+pub use ablated::{
+    AblatedNumbers, Ablation, NoEnclosures, NoIntegers, NoPerturbation, RoundedKeys,
+};
 use counts::most_flips;
 pub use counts::{FlipCounts, FlipOutcome};
 pub use deletion::{Blocked, Deleted, FlipDeletion, Kept};

@@ -2,6 +2,19 @@
 
 const FEW = 5;
 
+/** A number as it is read: whole ones in groups of three digits, others with four digits, like `table.rs`. */
+function formatted(text) {
+  if (/^-?\d{5,}$/.test(text)) return text.replace(/\B(?=(\d{3})+$)/g, ",");
+  const x = Number(text);
+  if (text.replace("-", "").length <= 6 || x === 0 || Number.isNaN(x) || /^-?\d+$/.test(text)) return text;
+  if (Math.abs(x) >= 1e4) return formatted(x.toFixed(0));
+  if (Math.abs(x) < 1e-4) return x.toExponential(3);
+  return String(Number(x.toPrecision(4)));
+}
+
+/** The number that a cell shows. */
+const numberIn = (cell) => parseFloat(cell.textContent.replaceAll(",", ""));
+
 /** Puts the rows of a long table in, once. */
 function fillTable(table) {
   const body = table.tBodies[0];
@@ -13,7 +26,7 @@ function fillTable(table) {
     const tr = document.createElement("tr");
     row.split("\t").forEach((text, i) => {
       const td = document.createElement("td");
-      td.textContent = text === "true" ? "yes" : text === "false" ? "no" : text;
+      td.textContent = text === "true" ? "yes" : text === "false" ? "no" : numeric[i] ? formatted(text) : text;
       if (numeric[i]) td.className = "n";
       tr.append(td);
     });
@@ -28,7 +41,7 @@ function sortTable(table, column, descending) {
   const numeric = table.tHead.rows[0].cells[column].classList.contains("n");
   const keyed = [...body.rows].map((row) => {
     const text = row.cells[column].textContent;
-    return { row, text, key: numeric ? parseFloat(text) : text };
+    return { row, text, key: numeric ? numberIn(row.cells[column]) : text };
   });
   const compare = (a, b) => {
     if ((a.text === "") !== (b.text === "")) return a.text === "" ? 1 : -1;
@@ -84,4 +97,18 @@ document.querySelectorAll("table.data").forEach((table) => {
   if (!long) return;
   if (details === null || details.open) fillTable(table);
   else details.addEventListener("toggle", () => fillTable(table));
+});
+
+/** Says below a table that there is more of it beside what is seen. */
+const seen = new ResizeObserver((entries) => entries.forEach(({ target }) => {
+  const box = target.closest(".scroll");
+  box.nextElementSibling.classList.toggle("shown", box.scrollWidth - box.clientWidth > 2);
+}));
+document.querySelectorAll(".scroll").forEach((box) => {
+  const hint = document.createElement("p");
+  hint.className = "more";
+  hint.textContent = "The table is wider than the page: scroll sideways →";
+  box.after(hint);
+  seen.observe(box);
+  seen.observe(box.firstElementChild);
 });

@@ -51,7 +51,7 @@ function tryTable(table, check) {
   const button = header.cells[column]?.querySelector("button");
   if (button) {
     button.click();
-    const values = [...body.rows].map((row) => parseFloat(row.cells[column].textContent)).filter((x) => !Number.isNaN(x));
+    const values = [...body.rows].map((row) => numberIn(row.cells[column])).filter((x) => !Number.isNaN(x));
     check(values.every((x, i) => i === 0 || values[i - 1] <= x), `${name}: sorted`);
   }
   const input = table.closest(".scroll").previousElementSibling?.querySelector("input[type=search]");

@@ -6,6 +6,33 @@ function power(factor) {
   return factor < 1e4 ? String(factor) : `${digits} · 10<sup>${exponent}</sup>`;
 }
 
+/** From where to look at a scene first: at the polygon neither edge-on nor from straight above, where the vertices are spread most. */
+function goodView(scene) {
+  const [a, b, c] = scene.polygon.map((v) => scene.at[v]);
+  const [u, w] = [minus(b, a), minus(c, a)];
+  const normal = [u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]];
+  const dot = (p, q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+  const length = Math.hypot(...normal) || 1;
+  const spread = (along) => {
+    const places = scene.at.map((p) => dot(p, along));
+    return Math.max(...places) - Math.min(...places);
+  };
+  const size = Math.max(...[0, 1, 2].map((i) => spread([0, 1, 2].map((j) => Number(i === j))))) || 1;
+  let best = { score: -1 };
+  for (const phi of [0.3, 0.45, 0.6, 0.75]) {
+    for (let i = 0; i < 24; i += 1) {
+      const theta = 0.13 + (i * Math.PI) / 12;
+      const towards = [Math.cos(phi) * Math.sin(theta), Math.sin(phi), Math.cos(phi) * Math.cos(theta)];
+      const right = [Math.cos(theta), 0, -Math.sin(theta)];
+      const up = [-Math.sin(phi) * Math.sin(theta), Math.cos(phi), -Math.sin(phi) * Math.cos(theta)];
+      const slant = Math.abs(dot(towards, normal)) / length;
+      const score = 2 * Math.min(slant, 0.5) - Math.max(0, slant - 0.75) + (spread(right) * spread(up)) / size ** 2;
+      if (score > best.score) best = { score, theta, phi };
+    }
+  }
+  return { theta: best.theta, phi: best.phi, distance: 4.1 };
+}
+
 function startViewer() {
   const $ = (id) => document.getElementById(`v-${id}`);
   const root = document.getElementById("v");
@@ -20,8 +47,7 @@ function startViewer() {
       panel.querySelector(".stage").innerHTML = "<p class=\"missing\">This browser has no WebGL 2: there are no pictures, but all steps can be read below.</p>";
     });
   }
-  const INITIAL = { theta: 0.55, phi: 0.48, distance: 4.1 };
-  const view = { ...INITIAL, shrink: 0.78, explode: 0 };
+  const view = { theta: 0.55, phi: 0.48, distance: 4.1, shrink: 0.78, explode: 0 };
   const state = { scene: scenes[0], mode: "time", position: 0, timer: null };
 
   const steps = () => state.scene.positions[state.mode];
@@ -78,7 +104,7 @@ function startViewer() {
     pause();
     state.scene = scene;
     stages.forEach((stage) => stage.frame(scene));
-    Object.assign(view, INITIAL);
+    Object.assign(view, goodView(scene));
     const large = scene.exaggeration > 1 ? ` Heights are drawn ${power(scene.exaggeration)} times too large.` : "";
     $("text").innerHTML = `${scene.text}${large} <small>(<code>${scene.name}</code>: ${scene.vertices} vertices, ${scene.before.length} crossing tetrahedra)</small>`;
     scene.runs.forEach((run, i) => { tellers[i].querySelector(".events").innerHTML = listEvents(scene, run); });
@@ -135,7 +161,7 @@ function startViewer() {
   for (const name of ["settled", "polygon"]) $(name).addEventListener("change", update);
   $("near").addEventListener("click", () => zoom(0.8));
   $("far").addEventListener("click", () => zoom(1.25));
-  $("reset").addEventListener("click", () => { Object.assign(view, INITIAL); draw(); });
+  $("reset").addEventListener("click", () => { Object.assign(view, goodView(state.scene)); draw(); });
   tellers.forEach((teller, i) => teller.addEventListener("click", (event) => {
     const step = event.target.closest("[data-step]");
     if (step !== null) goTo(i, Number(step.dataset.step));

@@ -18,6 +18,8 @@
 mod input;
 mod measure;
 mod plan;
+mod price;
+mod price_summary;
 mod row;
 mod summary;
 
@@ -34,7 +36,7 @@ impl Experiment for ExactnessCost {
         About {
             name: "exactness_cost",
             question: "cost of exact flip times by number type, on random and on degenerate vertices",
-            seconds: 125,
+            seconds: 240,
         }
     }
 
@@ -58,6 +60,30 @@ impl Experiment for ExactnessCost {
         )?;
         answer.say(outcome::failures(&rows, |r| (r.name(), r.outcome, r.left)));
         answer.expectations = row::expectations(&rows);
+        price(context, &mut answer)?;
         Ok(answer)
     }
+}
+
+/// The second part: filtered times, and the same without one of their parts.
+fn price(context: &Context, answer: &mut Answer) -> Result<(), Failed> {
+    let plan = context.plan(price::Plan::quick, price::Plan::full);
+    let rows = context.measure(
+        &plan.scenes,
+        price::Scene::weight,
+        price::Scene::name,
+        |scene| price::measure(scene, &plan),
+    );
+    answer.csv("exactness_cost-price", &rows, "")?;
+    let shown =
+        "input about arm inputs succeeded median_microseconds_per_tet filtered_over_arm low high";
+    answer.csv(
+        "exactness_cost-price-summary",
+        &price_summary::summaries(&rows),
+        shown,
+    )?;
+    answer
+        .expectations
+        .extend(price_summary::expectations(&rows));
+    Ok(())
 }

@@ -32,8 +32,8 @@ pub struct Case {
 
 /// The number types of the gallery.
 const TIMES: [FlipOrder; 2] = [
+    FlipOrder::new(NumberType::F64Paper),
     FlipOrder::new(NumberType::F64Plain),
-    FlipOrder::new(NumberType::F32),
 ];
 
 /// The paper's failure case, rebuilt.

@@ -19,7 +19,6 @@ mod merge;
 pub mod plan;
 pub mod replay;
 mod row;
-mod wilson;
 
 use crate::families::{FAMILIES, Member};
 use crate::frame::record::Results;

@@ -2,9 +2,9 @@
 
 use super::measure::{Measured, Run};
 use super::plan::{Plan, precision};
-use super::wilson;
 use crate::families::FAMILIES;
 use crate::flips::schoenhardt::Class;
+use crate::measure::wilson;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use tetflip::recover::flips::{QueueRule, TieRule};

@@ -4,7 +4,8 @@
 //! region? Flips need O(n log n) time for n flips (Shewchuk 2003), cavities little more than linear time in practice.
 //!
 //! **Inputs.** The scene of the paper's Fig. 8 ([`crate::inputs::slab`]) with 1000 to 1 000 000 crossing
-//! tetrahedra, one seed. A row is the insertion of the rectangle by one method.
+//! tetrahedra, one seed. A row is the insertion of the rectangle by one method. And points with quadratically many
+//! tetrahedra ([`quadratic`](mod@quadratic)).
 //!
 //! **Columns.** [`Row`], [`fit::Summary`]; the README of this package has their meaning. Seconds are wall clock of the
 //! insertion alone, in one thread.
@@ -13,6 +14,7 @@
 //! is asserted of times.
 
 mod fit;
+mod quadratic;
 
 use crate::frame::row::Timed;
 use crate::frame::{About, Answer, Context, Expectation, Experiment, Failed, check_rows};
@@ -58,8 +60,48 @@ impl Experiment for Growth {
         answer.csv("growth-summary", &fit::summaries(&rows, &METHODS), shown)?;
         answer.file("growth.svg", &plot(&rows)?)?;
         answer.expectations = expectations(&rows);
+        quadratic(context, &mut answer)?;
         Ok(answer)
     }
+}
+
+/// The second part: where there are quadratically many flips.
+fn quadratic(context: &Context, answer: &mut Answer) -> Result<(), Failed> {
+    let sizes: &[usize] = match context.quick {
+        true => &[32, 64, 128],
+        false => &[32, 64, 128, 256, 512, 1024],
+    };
+    let of_kind = |&kind: &&'static str| sizes.iter().map(move |&n| (kind, n));
+    let inputs: Vec<_> = quadratic::KINDS.iter().flat_map(of_kind).collect();
+    let effort = Effort {
+        seconds: if context.quick { 0.02 } else { 0.3 },
+        least: 3,
+        most: 101,
+        of_slow: 3,
+    };
+    let rows = context.measure(
+        &inputs,
+        |&(_, n)| (n * n) as u64,
+        |(kind, n)| format!("{kind}, {n} points"),
+        |&(kind, n)| vec![quadratic::measure(kind, n, &effort)],
+    );
+    let shown = "input points crossing_tets flips queued median_seconds outcome";
+    answer.csv("growth-quadratic", &rows, shown)?;
+    let shown = "input to_points flips_exponent most_flips_over_square seconds_exponent";
+    answer.csv(
+        "growth-quadratic-summary",
+        &quadratic::summaries(&rows),
+        shown,
+    )?;
+    answer.expectations.extend(check_rows(
+        &rows,
+        |r| format!("{}, {} points", r.input, r.points),
+        &[(
+            "flips succeed where they are quadratically many, and cavities give the same tetrahedra",
+            &|r: &quadratic::Row| r.outcome == outcome::OK && r.agrees == Some(true),
+        )],
+    ));
+    Ok(())
 }
 
 /// How often the insertions of one size are timed: large ones less often.

@@ -9,6 +9,7 @@ use crate::rivals::process::{Ran, run};
 use std::time::Duration;
 use tetflip::lab::tetgen::{Figures, Switches, figures, number_after};
 
+const TETGEN16: &str = include_str!("../../rivals/tetgen16.py");
 const HXT: &str = include_str!("../../rivals/hxt.py");
 
 /// One row for each program that takes part.
@@ -19,7 +20,7 @@ pub fn measure(
     rounds: usize,
     limit: Duration,
 ) -> Vec<Row> {
-    let part = programs.iter().filter(|p| input.is_for(p, files.vertices));
+    let part = programs.iter().filter(|p| input.is_for(p, files));
     let part: Vec<&Contestant> = part.collect();
     let mut runs: Vec<Vec<(Option<Figures>, Ran)>> = vec![Vec::new(); part.len()];
     for round in 0..rounds {
@@ -60,6 +61,19 @@ fn once(contestant: &Contestant, files: &Files, limit: Duration) -> (Option<Figu
             };
             let ran = run(program, &[switches.to_string(), path], limit);
             (figures(&ran.text).filter(|_| ran.ok), ran)
+        }
+        Contestant::TetGen16 { python, .. } => {
+            // It makes a CDT only with D; without, it looks for any tetrahedralization that has the facets.
+            let switches = if files.facets > 0 { "pDcO0NEF" } else { "NEF" };
+            let arguments = ["-c", TETGEN16, &path, switches].map(str::to_string);
+            let ran = run(python, &arguments, limit);
+            let figures = figures(&ran.text).filter(|_| ran.ok);
+            // As below.
+            let ran = Ran {
+                peak_mebibytes: None,
+                ..ran
+            };
+            (figures, ran)
         }
         Contestant::Hxt {
             python, threads, ..

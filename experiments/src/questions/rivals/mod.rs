@@ -1,6 +1,6 @@
 //! Beside other programs.
 //!
-//! **Question.** How long does this library take, and how much memory, compared with TetGen and HXT on the same inputs,
+//! **Question.** How long does this library take, and how much memory, compared with TetGen (1.5 and 1.6) and HXT on the same inputs,
 //! on the same machine, at the same time?
 //!
 //! **Inputs.** Point sets ([`crate::inputs::points`]), generated models, the scenes of `fig9`, and models of the user's
@@ -15,6 +15,7 @@
 mod measure;
 mod plan;
 mod row;
+mod summary;
 mod targets;
 
 use crate::frame::{About, Answer, Context, Experiment, Failed};
@@ -51,6 +52,11 @@ impl Experiment for Rivals {
         let mut answer = context.answer();
         let shown = "input program method threads seconds polygon_seconds peak_mebibytes tetrahedra outcome";
         answer.csv("rivals", &rows, shown)?;
+        let summaries = summary::summaries(&rows);
+        if !summaries.is_empty() {
+            let shown = "kind method beside common sum_ratio geometric_mean median worst slower_on";
+            answer.csv("rivals-summary", &summaries, shown)?;
+        }
         if !targets.is_empty() {
             answer.csv("rivals-targets", &targets, "reached measured bound what")?;
         }

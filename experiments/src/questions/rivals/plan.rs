@@ -7,7 +7,7 @@ use crate::rivals::contestant::{Contestant, Ours};
 use std::collections::HashSet;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use tetflip::exchange::Plc;
+use tetflip::exchange::{Facet, Plc};
 use tetflip::format::{read_plc, write_poly};
 use tetflip::generate::{Kind as Made, generate};
 
@@ -68,6 +68,8 @@ pub struct Files {
     pub vertices: usize,
     /// How many facets.
     pub facets: usize,
+    /// Whether all of them are triangles.
+    pub triangles: bool,
 }
 
 /// What to run.
@@ -204,11 +206,13 @@ impl Input {
             path,
             vertices: plc.vertices.len(),
             facets: plc.facets.len(),
+            triangles: plc.facets.iter().all(is_triangle),
         })
     }
 
     /// Whether a program takes part.
-    pub fn is_for(&self, contestant: &Contestant, vertices: usize) -> bool {
+    pub fn is_for(&self, contestant: &Contestant, files: &Files) -> bool {
+        let vertices = files.vertices;
         let points = matches!(self.kind, Kind::Points { .. } | Kind::ModelPoints);
         match contestant {
             // What two threads gain shows on the largest inputs.
@@ -223,8 +227,13 @@ impl Input {
                 vertices < MILLION && self.kind != Kind::ModelPoints
             }
             Contestant::TetGen { .. } => true,
+            Contestant::TetGen16 { .. } => files.triangles,
         }
     }
+}
+
+fn is_triangle(facet: &Facet) -> bool {
+    matches!(&facet.polygons[..], [polygon] if polygon.len() == 3) && facet.holes.is_empty()
 }
 
 /// Each point once, in the order of the first ones.

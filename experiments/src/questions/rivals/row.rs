@@ -34,6 +34,7 @@ pub struct Row {
     pub seconds_over_tetgen: Option<f64>,
     pub polygons_over_tetgen: Option<f64>,
     pub memory_over_tetgen: Option<f64>,
+    pub seconds_over_tetgen_16: Option<f64>,
     pub seconds_over_hxt: Option<f64>,
     pub wall_over_hxt_2: Option<f64>,
     pub verification_over_construction: Option<f64>,
@@ -104,6 +105,8 @@ pub fn add_ratios(rows: &mut [Row]) {
             row.polygons_over_tetgen = ratio(row.polygon_seconds, tetgen.polygon_seconds);
             row.memory_over_tetgen = ratio(row.peak_mebibytes, tetgen.peak_mebibytes);
         }
+        let newer = find("tetgen-1.6", "cavity", 1);
+        row.seconds_over_tetgen_16 = ratio(row.seconds, newer.and_then(|t| t.seconds));
         let hxt = find("hxt", "delaunay", 1);
         row.seconds_over_hxt = ratio(row.seconds, hxt.and_then(|h| h.seconds));
     }
@@ -170,9 +173,11 @@ pub mod tests {
             row("slab/3000", "tetflip", "cavity", 1.0),
             row("slab/300", "tetgen", "cavity", 1.0),
             row("slab/3000", "tetgen", "cavity", 2.0),
+            row("a", "tetgen-1.6", "cavity", 2.0),
         ];
         add_ratios(&mut rows);
         assert_eq!(rows[0].seconds_over_tetgen, Some(0.25));
+        assert_eq!(rows[0].seconds_over_tetgen_16, Some(0.5));
         assert_eq!(rows[1].verification_over_construction, Some(3.0));
         assert_eq!(rows[1].seconds_over_tetgen, None);
         assert_eq!(
