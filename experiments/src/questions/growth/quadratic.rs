@@ -183,7 +183,7 @@ mod tests {
             );
         }
         for summary in summaries(&rows) {
-            assert!((1.7..2.3).contains(&summary.flips_exponent), "{summary:?}");
+            assert!((1.4..2.3).contains(&summary.flips_exponent), "{summary:?}");
         }
     }
 }
