@@ -1,11 +1,12 @@
 //! What a run did: counts and seconds per phase, as plain documented structs. (The library reads a clock here and in
 //! [`crate::clock`], for the tasks of polygon insertion, and nowhere else.)
 
+pub use crate::plc::MergeCounts;
 pub use crate::recover::flatten::FlatteningCounts;
 pub use crate::recover::flips::FlipCounts;
 pub use crate::recover::polygons::PolygonCounts;
 
-use crate::exchange::Note;
+use crate::exchange::{Note, Precision};
 use crate::predicate::Steiner;
 use crate::recover::polygons::Insertion;
 use serde::Serialize;
@@ -55,6 +56,12 @@ pub struct Report {
     pub input_vertices: usize,
     /// Vertices that have the coordinates of an earlier one.
     pub duplicate_vertices: usize,
+    /// The precision of the input's coordinates, and what it follows from.
+    pub precision: Precision,
+    /// Vertices that were moved to others, because they are one to that precision.
+    pub welded_vertices: usize,
+    /// What has been merged because it is coplanar to that precision, or by an angle.
+    pub merged_near: MergeCounts,
     /// Facets of the input.
     pub input_facets: usize,
     /// Segments after coplanar facets were merged.

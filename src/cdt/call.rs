@@ -4,16 +4,17 @@ use super::early_check::{EarlyCheck, Verdict};
 use super::mesh_error::MeshError;
 use super::{Options, run};
 use crate::error::{DomainError, Failure};
-use crate::exchange::{ExportedMesh, Note, NoteCode, Plc};
+use crate::exchange::{ExportedMesh, Note, NoteCode, Plc, Precision, PrecisionChoice};
 use crate::mesh::VertexId;
-use crate::plc::VertexName;
+use crate::plc::{FlatnessRule, MergeCounts, VertexName};
 use crate::predicate::Steiner;
 use crate::recover::polygons::{FlipOrder, Insertion};
 use crate::recover::segments::GoOn;
+use crate::repair::{Welding, divide};
 use crate::report::Report;
 
 /// What the user chooses for [`mesh`].
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub struct MeshOptions {
     /// How polygons are inserted.
     pub insertion: Insertion,
@@ -23,6 +24,15 @@ pub struct MeshOptions {
     /// Merge facets that are exactly coplanar, adjacent and equally marked into one polygon, so that their common edges
     /// are not constrained.
     pub merge_coplanar: bool,
+    /// How far coordinates may be from what was meant. Adjacent facets with equal markers that are coplanar to this
+    /// precision are merged as exactly coplanar ones are; facets may be as far from flat.
+    pub precision: PrecisionChoice,
+    /// Merge adjacent facets with equal markers that meet at this angle or more, too, in degrees: TetGen does so at
+    /// 179.9.
+    pub merge_angle: Option<f64>,
+    /// Divide facets that are not flat into triangles, however far from flat they are. Without that, those are divided
+    /// that are off their plane by a thousandth of their diameter at most, unless the precision is exact.
+    pub divide: bool,
     /// How Steiner points are represented.
     pub steiner: SteinerChoice,
     /// Leave vertices out that no tetrahedron has, and number the others anew.
@@ -55,6 +65,9 @@ impl MeshOptions {
         insertion: Insertion::Flip(FlipOrder::FILTERED),
         keep_hull: false,
         merge_coplanar: true,
+        precision: PrecisionChoice::Auto,
+        merge_angle: None,
+        divide: false,
         steiner: SteinerChoice::Auto,
         drop_unused: false,
         strict: false,
@@ -132,42 +145,243 @@ pub fn mesh_with_progress(
     options: &MeshOptions,
     progress: &mut dyn FnMut(usize),
 ) -> Result<Meshed, MeshError> {
-    let early = EarlyCheck::new(plc, options);
-    let (result, report) = attempt(plc, options, first_choice(options), progress, &|needed| {
-        early.go_on(needed)
-    });
-    // What is wrong with the input comes before anything that the algorithm can say.
-    if let Err(failure) = &result
-        && may_be_of_input(failure)
-    {
-        match early.verdict() {
-            Verdict::Valid => {}
-            Verdict::Repaired(repaired, notes) => {
-                return mesh_repaired(plc, &repaired, notes, options, progress);
-            }
-            Verdict::Wrong(findings) => {
-                let failure = failure.clone();
-                return Err(MeshError::of_findings(plc, failure, findings, report));
-            }
-        }
+    let precision = options.precision.of(&plc.vertices);
+    let mut welding = Welding::of(plc, precision.delta);
+    let mut result = mesh_divided(
+        plc,
+        welding.plc.as_ref().unwrap_or(plc),
+        options,
+        precision,
+        progress,
+    );
+    if result.is_err() && welding.plc.is_some() {
+        // What has been welded may have come too close to other parts.
+        welding.give_up();
+        result = mesh_divided(plc, plc, options, precision, progress);
     }
-    finish(plc, (result, report), options, progress)
+    if let Ok(meshed) = &mut result {
+        meshed
+            .report
+            .notes
+            .extend(welding.notes(plc, precision.delta));
+    }
+    let report = match &mut result {
+        Ok(meshed) => &mut meshed.report,
+        Err(error) => &mut *error.report,
+    };
+    report.precision = precision;
+    report.welded_vertices = welding.welded.iter().map(|c| c.len() - 1).sum();
+    result
+}
+
+/// The most that a facet may be off its plane, as a part of its diameter, to be divided without being asked for it.
+const DIVIDED: f64 = 1e-3;
+
+/// The mesh of an input, or of one with vertices welded, with facets divided that are not flat.
+fn mesh_divided(
+    original: &Plc,
+    plc: &Plc,
+    options: &MeshOptions,
+    precision: Precision,
+    progress: &mut dyn FnMut(usize),
+) -> Result<Meshed, MeshError> {
+    let most = match (options.divide, options.precision) {
+        (true, _) => f64::INFINITY,
+        (false, PrecisionChoice::Exact) => 0.0,
+        (false, _) => DIVIDED,
+    };
+    let divided = match options.strict || most == 0.0 {
+        true => None,
+        false => divide(plc, precision.delta, most),
+    };
+    let Some((divided, note)) = divided else {
+        return mesh_to(original, plc, options, precision, progress);
+    };
+    let mut result = mesh_to(original, &divided, options, precision, progress);
+    let report = match &mut result {
+        Ok(meshed) => &mut meshed.report,
+        Err(error) => &mut *error.report,
+    };
+    report.input_facets = original.facets.len();
+    report.notes.insert(0, note);
+    result
+}
+
+/// The mesh of what an input has been made to, with facets merged that are flat to the precision.
+fn mesh_to(
+    original: &Plc,
+    plc: &Plc,
+    options: &MeshOptions,
+    precision: Precision,
+    progress: &mut dyn FnMut(usize),
+) -> Result<Meshed, MeshError> {
+    let rule = FlatnessRule {
+        merge_angle: options.merge_angle,
+        ..FlatnessRule::of(precision)
+    };
+    let call = |rule| Call {
+        options,
+        rule,
+        original,
+        delta: precision.delta,
+    };
+    let mut result = call(rule).mesh(plc, progress);
+    // Facets that are one to the precision of the input may be too close to others, or too hard to insert.
+    if let Err(error) = &result
+        && error.findings.is_none()
+        && error.report.merged_near.polygons > 0
+    {
+        let (facets, why) = (error.report.merged_near.facets, error.failure.describe(plc));
+        result = call(rule.apart()).mesh(plc, progress).map(|mut meshed| {
+            let text = format!(
+                "{facets} facets are coplanar with others to the precision {precision}, but are left apart: {why}"
+            );
+            meshed.report.notes.push(Note::new(NoteCode::LeftApart, facets, text));
+            meshed
+        });
+    }
+    if let Ok(meshed) = &mut result
+        && meshed.report.merged_near.polygons > 0
+    {
+        let merged = meshed.report.merged_near;
+        let text = merged_text(merged, precision, options.merge_angle);
+        let note = Note::new(NoteCode::FlatToPrecision, merged.facets, text);
+        meshed.report.notes.push(note);
+    }
+    result
+}
+
+/// What has been merged that is not exactly coplanar, in words.
+fn merged_text(merged: MergeCounts, precision: Precision, angle: Option<f64>) -> String {
+    let MergeCounts {
+        polygons,
+        facets,
+        left_apart,
+        ..
+    } = merged;
+    let by_angle = angle.map_or(String::new(), |angle| {
+        format!(", or within {} degrees of it", 180.0 - angle)
+    });
+    let apart = match left_apart {
+        0 => String::new(),
+        n => format!("; {n} more such groups make no polygon and are left apart"),
+    };
+    format!(
+        "{facets} facets become {polygons} polygons: each group is on one plane to the precision {precision}{by_angle}\
+         {apart}; --precision exact keeps them apart"
+    )
 }
 
 /// How a run ends, and its report.
 type Outcome = (Result<ExportedMesh, Failure>, Report);
 
-/// One run.
-fn attempt(
-    plc: &Plc,
-    options: &MeshOptions,
-    steiner: Steiner,
-    progress: &mut dyn FnMut(usize),
-    go_on: &GoOn<'_>,
-) -> Outcome {
-    let mut report = Report::default();
-    let result = run(plc, &options.with(steiner), &mut report, progress, go_on);
-    (result, report)
+/// One call, with all that is decided.
+struct Call<'a> {
+    options: &'a MeshOptions,
+    rule: FlatnessRule,
+    /// The input as it was given.
+    original: &'a Plc,
+    /// The precision of the input.
+    delta: f64,
+}
+
+impl Call<'_> {
+    /// The mesh, of the input or of what it is repaired to.
+    fn mesh(&self, plc: &Plc, progress: &mut dyn FnMut(usize)) -> Result<Meshed, MeshError> {
+        let options = self.options;
+        let early = EarlyCheck::new(plc, options, self.delta);
+        let (result, report) = self.attempt(plc, first_choice(options), progress, &|needed| {
+            early.go_on(needed)
+        });
+        // What is wrong with the input comes before anything that the algorithm can say.
+        if let Err(failure) = &result
+            && may_be_of_input(failure)
+        {
+            match early.verdict() {
+                Verdict::Valid => {}
+                Verdict::Repaired(repaired, notes) => {
+                    return self.mesh_repaired(&repaired, notes, progress);
+                }
+                Verdict::Wrong(findings) => {
+                    let failure = failure.clone();
+                    return Err(MeshError::of_findings(
+                        self.original,
+                        failure,
+                        findings,
+                        report,
+                    ));
+                }
+            }
+        }
+        self.finish(plc, (result, report), progress)
+    }
+
+    /// One run.
+    fn attempt(
+        &self,
+        plc: &Plc,
+        steiner: Steiner,
+        progress: &mut dyn FnMut(usize),
+        go_on: &GoOn<'_>,
+    ) -> Outcome {
+        let mut report = Report::default();
+        let options = self.options.with(steiner);
+        let result = run(plc, &options, &self.rule, &mut report, progress, go_on);
+        (result, report)
+    }
+
+    /// What comes of a run on a valid PLC, which is repeated with exact Steiner points if that is necessary.
+    fn finish(
+        &self,
+        plc: &Plc,
+        (mut result, mut report): Outcome,
+        progress: &mut dyn FnMut(usize),
+    ) -> Result<Meshed, MeshError> {
+        // With exact Steiner points nothing is merged that is not exactly coplanar.
+        if self.options.steiner == SteinerChoice::Auto
+            && report.merged_near.polygons == 0
+            && let Some(why) = needs_exact(plc, &result, &report)
+        {
+            let (again, again_report) = self.attempt(plc, Steiner::Exact, progress, &|_| true);
+            if again.is_ok() || result.is_err() {
+                let how = if again.is_ok() { "made" } else { "tried" };
+                (result, report) = (again, again_report);
+                let text = format!("with rounded Steiner points: {why}; {how} with exact ones");
+                let note = Note::new(NoteCode::ExactSteiner, 1, text);
+                report.notes.insert(0, note);
+            }
+        }
+        match result {
+            Ok(mut mesh) => {
+                let note = number(plc, self.options.drop_unused, &mut mesh);
+                report.notes.extend(note);
+                Ok(Meshed { mesh, report })
+            }
+            Err(failure) => Err(MeshError::new(plc, failure, report)),
+        }
+    }
+
+    /// The mesh of a PLC that another one was repaired to, with notes.
+    fn mesh_repaired(
+        &self,
+        repaired: &Plc,
+        notes: Vec<Note>,
+        progress: &mut dyn FnMut(usize),
+    ) -> Result<Meshed, MeshError> {
+        let steiner = first_choice(self.options);
+        let outcome = self.attempt(repaired, steiner, progress, &|_| true);
+        let mut result = self.finish(repaired, outcome, progress);
+        let report = match &mut result {
+            Ok(Meshed { mesh, report }) => {
+                mesh.face_table.add_markers(&self.original.facets);
+                report
+            }
+            Err(error) => &mut *error.report,
+        };
+        report.input_facets = self.original.facets.len();
+        report.notes.splice(0..0, notes);
+        result
+    }
 }
 
 /// How Steiner points are represented at first.
@@ -176,59 +390,6 @@ fn first_choice(options: &MeshOptions) -> Steiner {
         SteinerChoice::Auto | SteinerChoice::Rounded => Steiner::Rounded,
         SteinerChoice::Exact => Steiner::Exact,
     }
-}
-
-/// What comes of a run on a valid PLC, which is repeated with exact Steiner points if that is necessary.
-fn finish(
-    plc: &Plc,
-    (mut result, mut report): Outcome,
-    options: &MeshOptions,
-    progress: &mut dyn FnMut(usize),
-) -> Result<Meshed, MeshError> {
-    if options.steiner == SteinerChoice::Auto
-        && let Some(why) = needs_exact(plc, &result, &report)
-    {
-        let (again, again_report) = attempt(plc, options, Steiner::Exact, progress, &|_| true);
-        if again.is_ok() || result.is_err() {
-            let how = if again.is_ok() { "made" } else { "tried" };
-            (result, report) = (again, again_report);
-            let text = format!("with rounded Steiner points: {why}; {how} with exact ones");
-            let note = Note::new(NoteCode::ExactSteiner, 1, text);
-            report.notes.insert(0, note);
-        }
-    }
-    match result {
-        Ok(mut mesh) => {
-            let note = number(plc, options.drop_unused, &mut mesh);
-            report.notes.extend(note);
-            Ok(Meshed { mesh, report })
-        }
-        Err(failure) => Err(MeshError::new(plc, failure, report)),
-    }
-}
-
-/// The mesh of a PLC that another one was repaired to, with notes.
-fn mesh_repaired(
-    plc: &Plc,
-    repaired: &Plc,
-    notes: Vec<Note>,
-    options: &MeshOptions,
-    progress: &mut dyn FnMut(usize),
-) -> Result<Meshed, MeshError> {
-    let outcome = attempt(repaired, options, first_choice(options), progress, &|_| {
-        true
-    });
-    let mut result = finish(repaired, outcome, options, progress);
-    let report = match &mut result {
-        Ok(Meshed { mesh, report }) => {
-            mesh.face_table.add_markers(&plc.facets);
-            report
-        }
-        Err(error) => &mut *error.report,
-    };
-    report.input_facets = plc.facets.len();
-    report.notes.splice(0..0, notes);
-    result
 }
 
 /// Numbers the vertices of the mesh: those of the input first, in their order. Notes if some have other numbers than in

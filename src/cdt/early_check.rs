@@ -6,7 +6,7 @@
 //! valid input is not held up, and what comes of it does not depend on any of this.
 
 use super::MeshOptions;
-use crate::check::{Findings, check};
+use crate::check::{Findings, check_to};
 use crate::exchange::{Note, Plc};
 use crate::repair::{LISTED, RepairOptions, Repaired, repair};
 use std::borrow::Cow;
@@ -31,9 +31,9 @@ pub(super) enum Verdict {
 impl Verdict {
     /// Looks at an input, and repairs it if that is necessary and allowed. The cost is that of [`check`] or, if it can
     /// be repaired, a few times that.
-    pub fn of(plc: &Plc, options: &MeshOptions) -> Verdict {
+    pub fn of(plc: &Plc, options: &MeshOptions, delta: f64) -> Verdict {
         if options.strict {
-            let findings = check(plc, Some(LISTED));
+            let findings = check_to(plc, Some(LISTED), delta);
             return match findings.is_valid() {
                 true => Verdict::Valid,
                 false => Verdict::Wrong(Box::new(findings)),
@@ -42,6 +42,7 @@ impl Verdict {
         let options = RepairOptions {
             strict: false,
             merge_coplanar: options.merge_coplanar,
+            delta,
         };
         match repair(plc, options) {
             Ok(Repaired { plc, notes }) => match plc {
@@ -62,6 +63,8 @@ impl Verdict {
 pub(super) struct EarlyCheck<'a> {
     plc: &'a Plc,
     options: &'a MeshOptions,
+    /// The precision of the input.
+    delta: f64,
     begun: AtomicBool,
     state: Arc<State>,
 }
@@ -76,10 +79,11 @@ struct State {
 
 impl<'a> EarlyCheck<'a> {
     /// A check that has not begun.
-    pub fn new(plc: &'a Plc, options: &'a MeshOptions) -> EarlyCheck<'a> {
+    pub fn new(plc: &'a Plc, options: &'a MeshOptions, delta: f64) -> EarlyCheck<'a> {
         EarlyCheck {
             plc,
             options,
+            delta,
             begun: AtomicBool::new(false),
             state: Arc::default(),
         }
@@ -98,13 +102,13 @@ impl<'a> EarlyCheck<'a> {
         if rayon::current_num_threads() < 2 {
             return;
         }
-        let (plc, options) = (self.plc.clone(), *self.options);
+        let (plc, options, delta) = (self.plc.clone(), *self.options, self.delta);
         let state = Arc::clone(&self.state);
         rayon::spawn(move || {
             if state.over.load(Ordering::Relaxed) {
                 return;
             }
-            let verdict = Verdict::of(&plc, &options);
+            let verdict = Verdict::of(&plc, &options, delta);
             let is_hopeless = verdict.is_hopeless();
             *state.verdict.lock().unwrap_or_else(PoisonError::into_inner) = Some(verdict);
             if is_hopeless {
@@ -118,7 +122,7 @@ impl<'a> EarlyCheck<'a> {
     pub fn verdict(self) -> Verdict {
         let verdict = self.state.verdict.lock();
         let found = verdict.unwrap_or_else(PoisonError::into_inner).take();
-        found.unwrap_or_else(|| Verdict::of(self.plc, self.options))
+        found.unwrap_or_else(|| Verdict::of(self.plc, self.options, self.delta))
     }
 }
 
@@ -162,7 +166,7 @@ mod tests {
         pool.expect("two threads").install(|| {
             let plc = triangles(true);
             let options = MeshOptions::default();
-            let early = EarlyCheck::new(&plc, &options);
+            let early = EarlyCheck::new(&plc, &options, 0.0);
             assert!(early.go_on(10) && !early.begun.load(Ordering::Relaxed));
             let start = Instant::now();
             while early.go_on(1000) {
@@ -181,7 +185,7 @@ mod tests {
     fn a_run_on_a_valid_input_goes_on() {
         let plc = triangles(false);
         let options = MeshOptions::default();
-        let early = EarlyCheck::new(&plc, &options);
+        let early = EarlyCheck::new(&plc, &options, 0.0);
         for _ in 0..50 {
             assert!(early.go_on(1000));
             std::thread::sleep(Duration::from_millis(1));

@@ -14,6 +14,9 @@ mod open;
 
 pub mod flips;
 
+pub use crate::exchange::{Precision, PrecisionChoice};
+#[doc(hidden)]
+pub use crate::plc::FlatnessRule;
 pub use crate::predicate::Steiner;
 pub use crate::recover::polygons::Insertion;
 pub use crate::update::DeletionCounts;
@@ -102,7 +105,7 @@ impl Cdt {
     /// # Errors
     /// [`Failure`], naming the vertices, segments or facets.
     pub fn begin(plc: &Plc, options: &Options, report: &mut Report) -> Result<Self, Failure> {
-        Cdt::begin_watched(plc, options, report, &|_| true, false)
+        Cdt::begin_watched(plc, options, &FlatnessRule::EXACT, report, &|_| true, false)
     }
 
     /// [`Cdt::begin`], with somebody who is told how many Steiner points will be needed at least, and may stop the run.
@@ -110,6 +113,7 @@ impl Cdt {
     fn begin_watched(
         plc: &Plc,
         options: &Options,
+        rule: &FlatnessRule,
         report: &mut Report,
         go_on: &GoOn<'_>,
         must_enclose: bool,
@@ -118,7 +122,13 @@ impl Cdt {
         report.input_vertices = plc.vertices.len();
         report.input_facets = plc.facets.len();
         let complex = report.time(Phase::Complex, |report| {
-            let mut complex = Complex::new(plc, options.merge_coplanar)?;
+            // What is not exactly flat would be divided again.
+            let rule = match options.steiner {
+                Steiner::Rounded => *rule,
+                Steiner::Exact => rule.apart(),
+            };
+            let (mut complex, merged) = Complex::flat_to(plc, options.merge_coplanar, &rule)?;
+            report.merged_near = merged;
             if options.steiner == Steiner::Exact {
                 report.triangulated_polygons = complex.triangulate_not_flat(plc)?;
             }
@@ -415,19 +425,42 @@ pub fn tetrahedralize(
     report: &mut Report,
     progress: &mut dyn FnMut(usize),
 ) -> Result<ExportedMesh, Failure> {
-    run(plc, options, report, progress, &|_| true)
+    run(
+        plc,
+        options,
+        &FlatnessRule::EXACT,
+        report,
+        progress,
+        &|_| true,
+    )
+}
+
+/// [`tetrahedralize`] with a rule for what counts as flat.
+///
+/// # Errors
+/// The same.
+#[doc(hidden)]
+pub fn tetrahedralize_to(
+    plc: &Plc,
+    options: &Options,
+    rule: &FlatnessRule,
+    report: &mut Report,
+    progress: &mut dyn FnMut(usize),
+) -> Result<ExportedMesh, Failure> {
+    run(plc, options, rule, report, progress, &|_| true)
 }
 
 /// [`tetrahedralize`], with somebody who may stop the run.
 fn run(
     plc: &Plc,
     options: &Options,
+    rule: &FlatnessRule,
     report: &mut Report,
     progress: &mut dyn FnMut(usize),
     go_on: &GoOn<'_>,
 ) -> Result<ExportedMesh, Failure> {
     let must_enclose = !options.keep_hull;
-    let mut cdt = Cdt::begin_watched(plc, options, report, go_on, must_enclose)?;
+    let mut cdt = Cdt::begin_watched(plc, options, rule, report, go_on, must_enclose)?;
     cdt.insert_polygons(options.insertion, report, progress)?;
     cdt.export(plc, options.keep_hull, report)
 }

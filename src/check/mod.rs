@@ -60,7 +60,12 @@ use std::ops::ControlFlow;
 /// Checks a PLC. With `most`, the search ends when that many conflicts have been found; which these are depends on the
 /// input alone.
 pub fn check(plc: &Plc, most: Option<usize>) -> Findings {
-    let parts = Parts::new(plc);
+    check_to(plc, most, 0.0)
+}
+
+/// [`check`] to a precision: vertices within `delta` of the plane of their facet, along each axis, are on it.
+pub fn check_to(plc: &Plc, most: Option<usize>, delta: f64) -> Findings {
+    let parts = Parts::new(plc, delta);
     let search = Search::new(plc, &parts, true, None);
     let (found, stopped) = match most {
         Some(most) => first_pairs(&search, most),
@@ -140,7 +145,7 @@ fn sorted(pairs: FxHashSet<[u32; 2]>) -> Vec<[u32; 2]> {
 
 /// The triangles, edges and vertices that each part consists of, in the triangulation that the check uses.
 pub(crate) fn simplices_of_parts(plc: &Plc) -> FxHashMap<Part, Vec<Vec<VertexId>>> {
-    let parts = Parts::new(plc);
+    let parts = Parts::new(plc, f64::INFINITY);
     let corners = |s: &meet::Simplex| {
         let mut corners = s.corners.to_vec();
         corners.dedup();

@@ -34,6 +34,8 @@ pub(crate) struct Owner {
 /// The parts of a PLC.
 #[derive(Default)]
 pub(crate) struct Parts {
+    /// How far vertices may be from the planes of their facets.
+    pub delta: f64,
     /// The first vertex with the coordinates of each.
     pub representative: Vec<VertexId>,
     /// The valid facets, then the segments that are not edges of those, then the vertices of neither.
@@ -59,9 +61,10 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// Takes a PLC apart.
-    pub fn new(plc: &Plc) -> Parts {
+    /// Takes a PLC apart. Vertices within `delta` of the plane of their facet, along each axis, are on it.
+    pub fn new(plc: &Plc, delta: f64) -> Parts {
         let mut parts = Parts {
+            delta,
             representative: representatives(&plc.vertices),
             used: vec![false; plc.vertices.len()],
             ..Parts::default()
@@ -132,7 +135,7 @@ impl Parts {
             let kind = "facet hole";
             return Err(PlcError::PointNotFinite { kind, index: hole });
         }
-        let facet = FacetInput::new(plc, index, &self.representative)?;
+        let facet = FacetInput::new(plc, index, &self.representative, self.delta)?;
         if !facet.is_area() {
             let simplices = loose_simplices(&facet, None);
             self.add(Part::Facet(index), simplices, Vec::new());

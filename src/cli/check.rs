@@ -4,11 +4,12 @@ use super::input::Input;
 use super::{Stop, check_outputs, say};
 use serde_json::{Value, json};
 use std::path::PathBuf;
-use tetflip::check::{Conflict, Findings, Part, check};
-use tetflip::exchange::Plc;
+use tetflip::check::{Conflict, Findings, Part, check_to};
+use tetflip::exchange::{Note, NoteCode, Plc, Precision, PrecisionChoice};
 use tetflip::format::write_conflicts;
 use tetflip::mesh::VertexId;
 use tetflip::plc::{EdgeName, FacetName, VertexName};
+use tetflip::repair::Welding;
 
 #[derive(clap::Args)]
 pub(crate) struct CheckArguments {
@@ -20,6 +21,10 @@ pub(crate) struct CheckArguments {
     /// Print the findings as one JSON object instead of lines.
     #[arg(long)]
     json: bool,
+    /// How far coordinates may be from what was meant: `auto` (what their values tell, see `mesh --help`), `exact`, or
+    /// a distance. Facets may be as far from flat.
+    #[arg(long, value_name = "auto|exact|DISTANCE", default_value = "auto")]
+    precision: PrecisionChoice,
     /// Stop when this many intersecting pairs have been found.
     #[arg(long, value_name = "N")]
     max: Option<usize>,
@@ -42,15 +47,19 @@ pub(crate) fn check_file(arguments: &CheckArguments) -> Result<(), Stop> {
         check_outputs(&input, Some(path), None)?;
     }
     let (plc, _) = input.read()?;
-    let findings = check(&plc, arguments.max);
+    let precision = arguments.precision.of(&plc.vertices);
+    let findings = check_to(&plc, arguments.max, precision.delta);
     if let Some(path) = &arguments.output {
         write_conflicts(path, &plc, &findings).map_err(Stop::input)?;
     }
     if arguments.json {
-        let text = serde_json::to_string_pretty(&as_json(&plc, &findings)).map_err(Stop::input)?;
+        let text = serde_json::to_string_pretty(&as_json(&plc, &findings, precision))
+            .map_err(Stop::input)?;
         say(&text);
     } else if !arguments.quiet {
         lines(&plc, &findings).iter().for_each(|line| say(line));
+        let near = near(&plc, precision, &findings);
+        near.iter().for_each(|note| say(&note.to_string()));
     }
     if findings.is_valid() {
         Ok(())
@@ -84,6 +93,21 @@ fn lines(plc: &Plc, findings: &Findings) -> Vec<String> {
     });
     lines.extend(notes(plc, findings));
     lines
+}
+
+/// What `mesh` welds, and what it would weld with a coarser precision.
+fn near(plc: &Plc, precision: Precision, findings: &Findings) -> Vec<Note> {
+    let mut notes = Welding::of(plc, precision.delta).notes(plc, precision.delta);
+    let open = !findings.notes.open_edges.is_empty();
+    let coarser = open.then(|| Welding::coarser(plc, precision.delta));
+    if let Some((coarser, vertices)) = coarser.flatten() {
+        let text = format!(
+            "{vertices} vertices of open edges are near others; --precision {coarser:.2e} would weld them (it is \
+             {precision} now)"
+        );
+        notes.push(Note::new(NoteCode::NearVertices, vertices, text));
+    }
+    notes
 }
 
 /// What is unusual, one line for each kind.
@@ -143,7 +167,7 @@ fn notes(plc: &Plc, findings: &Findings) -> Vec<String> {
 }
 
 /// The findings for programs: numbers are those of the file.
-fn as_json(plc: &Plc, findings: &Findings) -> Value {
+fn as_json(plc: &Plc, findings: &Findings, precision: Precision) -> Value {
     let vertex = |v: VertexId| VertexName::new(plc, v).number;
     let edge = |ends: [VertexId; 2]| ends.map(vertex);
     let part = |part: Part| match part {
@@ -174,6 +198,8 @@ fn as_json(plc: &Plc, findings: &Findings) -> Value {
     json!({
         "valid": findings.is_valid(),
         "repairable": findings.is_repairable(),
+        "precision": precision,
+        "near": near(plc, precision, findings),
         "stopped": findings.stopped,
         "errors": findings.errors.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "conflicts": findings.conflicts.iter().map(conflict).collect::<Vec<_>>(),

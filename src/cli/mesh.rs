@@ -2,6 +2,7 @@
 
 use super::input::Input;
 use super::output::Output;
+use super::verify::merge_angle;
 use super::{Stop, check_outputs, failure_path, warn};
 use clap::ValueEnum;
 use serde::Serialize;
@@ -9,7 +10,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use tetflip::cdt::{MeshError, MeshOptions, Meshed, SteinerChoice, mesh_with_progress};
 use tetflip::error::Failure;
-use tetflip::exchange::{Note, Plc};
+use tetflip::exchange::{Note, Plc, PrecisionChoice};
 use tetflip::format::{write_complete, write_poly};
 use tetflip::predicate::Steiner;
 use tetflip::recover::polygons::{FlipOrder, Insertion};
@@ -51,6 +52,22 @@ pub(crate) struct MeshArguments {
     /// Do not merge coplanar adjacent facets: constrain their common edges, too.
     #[arg(long)]
     no_merge: bool,
+    /// How far coordinates may be from what was meant: `auto` (what their values tell), `exact`, or a distance.
+    ///
+    /// Adjacent facets with equal markers that lie on one plane to this precision are one polygon, and facets may be
+    /// as far from flat. `auto`: half a unit of float32 if all coordinates are values of it; else half a unit of the
+    /// last of their significant digits (6 or more) or decimals (3 or more); else 8 units of double. Short numbers are
+    /// exact. `exact` moves, merges and flattens nothing.
+    #[arg(long, value_name = "auto|exact|DISTANCE", default_value = "auto")]
+    precision: PrecisionChoice,
+    /// Merge adjacent facets with equal markers that meet at this angle or more, too, in degrees: TetGen does so at
+    /// 179.9. What is lower than that is given up.
+    #[arg(long, value_name = "DEGREES", value_parser = merge_angle, conflicts_with = "no_merge")]
+    merge_angle: Option<f64>,
+    /// Divide facets that are not flat into triangles, however far from flat they are. (Those off their plane by a
+    /// thousandth of their diameter are divided anyway, unless with --precision exact.)
+    #[arg(long, conflicts_with = "strict")]
+    divide: bool,
     /// Leave out vertices that no tetrahedron has, and number the others anew: NAME.map holds old and new numbers.
     #[arg(long)]
     drop_unused: bool,
@@ -94,6 +111,9 @@ pub(crate) fn mesh(arguments: &MeshArguments) -> Result<(), Stop> {
         insertion: insertion(arguments)?,
         keep_hull: arguments.hull,
         merge_coplanar: !arguments.no_merge,
+        precision: arguments.precision,
+        merge_angle: arguments.merge_angle,
+        divide: arguments.divide,
         steiner: match arguments.steiner {
             SteinerArgument::Auto => SteinerChoice::Auto,
             SteinerArgument::Rounded => SteinerChoice::Rounded,
@@ -199,6 +219,11 @@ fn verify_options(arguments: &MeshArguments, report: &Report) -> VerifyOptions {
             Steiner::Rounded => default.tolerance,
             Steiner::Exact => 0.0,
         },
+        precision: match report.merged_near.polygons + report.welded_vertices {
+            0 => 0.0,
+            _ => report.precision.delta,
+        },
+        merge_angle: arguments.merge_angle,
         ..default
     }
 }
@@ -246,7 +271,8 @@ fn dump_region(arguments: &MeshArguments, output: Option<&Path>, region: &Plc) -
     let times = arguments.times.unwrap_or(FlipOrder::FILTERED);
     let path = path.display();
     format!(
-        "\nits region is in {path}; try again with: tetflip mesh {path} --hull --insert flip --times {times}"
+        "\nits region is in {path}; try again with: tetflip mesh {path} --hull --precision exact --insert flip --times \
+         {times}"
     )
 }
 

@@ -4,9 +4,9 @@ use super::input::Input;
 use super::{Stop, say, warn};
 use clap::ValueEnum;
 use std::path::PathBuf;
-use tetflip::exchange::{Note, NoteCode};
+use tetflip::exchange::{Note, NoteCode, Precision, PrecisionChoice};
 use tetflip::format::read_mesh;
-use tetflip::verify::{Domain, VerifyOptions, verify};
+use tetflip::verify::{Domain, Verdict, VerifyOptions, verify};
 
 #[derive(clap::Args)]
 pub(crate) struct VerifyArguments {
@@ -29,7 +29,11 @@ pub(crate) struct VerifyArguments {
     /// said.
     #[arg(long, value_parser = merge_angle, default_value_t = 179.9)]
     merge_angle: f64,
-    /// Refuse a mesh in which facets that are not exactly coplanar have been merged.
+    /// How far coordinates may be from what was meant: `auto` (what their values tell, see `mesh --help`), `exact`, or
+    /// a distance. Adjacent facets with equal markers on one plane to this precision may have been merged.
+    #[arg(long, value_name = "auto|exact|DISTANCE", default_value = "auto")]
+    precision: PrecisionChoice,
+    /// Refuse a mesh in which facets have been merged that are not on one plane to the precision.
     #[arg(long)]
     strict: bool,
     /// Check everything but that faces which are on no facet are locally Delaunay.
@@ -57,11 +61,48 @@ fn tolerance(word: &str) -> Result<f64, String> {
         .ok_or("not a finite number from 0 on".to_owned())
 }
 
-fn merge_angle(word: &str) -> Result<f64, String> {
+pub(super) fn merge_angle(word: &str) -> Result<f64, String> {
     let number: f64 = word.parse().map_err(|_| "not a number".to_owned())?;
     let good = (0.0..=180.0).contains(&number);
     good.then_some(number)
         .ok_or("not an angle between 0 and 180 degrees".to_owned())
+}
+
+/// A way to read the input more leniently.
+struct Reading {
+    merge_angle: Option<f64>,
+    code: NoteCode,
+    why: String,
+    but: &'static str,
+}
+
+/// The ways that are allowed, less lenient ones first.
+fn readings(arguments: &VerifyArguments, precision: Precision) -> Vec<Reading> {
+    let mut readings = Vec::new();
+    if precision.delta > 0.0 {
+        readings.push(Reading {
+            merge_angle: None,
+            code: NoteCode::FlatToPrecision,
+            why: format!("between facets on one plane to the precision {precision}"),
+            but: " (see --precision)",
+        });
+    }
+    if !arguments.strict {
+        readings.push(Reading {
+            merge_angle: Some(arguments.merge_angle),
+            code: NoteCode::MergedByAngle,
+            why: format!(
+                "between facets that meet at {} degrees or more",
+                arguments.merge_angle
+            ),
+            but: " (see --strict)",
+        });
+    }
+    readings
+}
+
+fn violations(verdict: &Verdict) -> usize {
+    verdict.totals.values().sum()
 }
 
 /// Verifies a mesh against its PLC.
@@ -82,30 +123,40 @@ pub(crate) fn verify_files(arguments: &VerifyArguments) -> Result<(), Stop> {
         any_triangulation: arguments.any_triangulation,
         ..VerifyOptions::default()
     };
+    let precision = arguments.precision.of(&plc.vertices);
     let mut verdict = verify(&plc, &mesh, exactly);
-    let mut merged_by_angle = None;
-    if !verdict.is_ok() && !arguments.strict {
-        let leniently = VerifyOptions {
-            merge_angle: Some(arguments.merge_angle),
-            ..exactly
-        };
-        let lenient = verify(&plc, &mesh, leniently);
-        // Say which of the two readings of the input the verdict is about.
-        if lenient.is_ok()
-            || lenient.totals.values().sum::<usize>() < verdict.totals.values().sum::<usize>()
-        {
+    let mut leniency = None;
+    for reading in readings(arguments, precision) {
+        if verdict.is_ok() {
+            break;
+        }
+        let lenient = verify(
+            &plc,
+            &mesh,
+            VerifyOptions {
+                precision: precision.delta,
+                merge_angle: reading.merge_angle,
+                ..exactly
+            },
+        );
+        // Say which of the readings of the input the verdict is about.
+        if lenient.is_ok() || violations(&lenient) < violations(&verdict) {
             let merged = &lenient.counts.segments_merged;
             let more = merged.saturating_sub(verdict.counts.segments_merged);
+            let welded = match lenient.counts.welded {
+                0 => String::new(),
+                n => format!("{n} input vertices are welded to others; "),
+            };
             let text = format!(
-                "{more} facet edges of the input are missing between facets that meet at {} degrees or more: the \
-                 mesh's maker merged facets that are not exactly coplanar; they are verified as merged (see --strict)",
-                arguments.merge_angle
+                "{welded}{more} facet edges of the input are missing {}: the mesh's maker merged facets that are not \
+                 exactly coplanar; they are verified as merged{}",
+                reading.why, reading.but
             );
-            merged_by_angle = Some(Note::new(NoteCode::MergedByAngle, more, text));
+            leniency = Some(Note::new(reading.code, more, text));
             verdict = lenient;
         }
     }
-    let notes = merged_by_angle.iter().chain(&verdict.notes);
+    let notes = leniency.iter().chain(&verdict.notes);
     notes.for_each(|note| warn(&note.to_string()));
     if !arguments.quiet {
         say(verdict.to_string().trim_end());

@@ -22,6 +22,19 @@ pub enum NoteCode {
     MissingMarkers,
     /// Facets were verified as merged that are not exactly coplanar (`merged-by-angle`).
     MergedByAngle,
+    /// Facets that are coplanar to the precision of the input are one polygon (`flat-to-precision`).
+    FlatToPrecision,
+    /// Facets that would be one polygon to the precision of the input are left apart, as the mesh could not be made
+    /// with it (`left-apart`).
+    LeftApart,
+    /// Vertices that are one to the precision of the input (`welded`).
+    Welded,
+    /// Vertices that are near each other to the precision of the input, but are not welded (`not-welded`).
+    NotWelded,
+    /// Facets that are farther from flat than the precision of the input are divided into triangles (`facets-divided`).
+    FacetsDivided,
+    /// Vertices of open edges that a coarser precision would weld (`near-vertices`).
+    NearVertices,
     /// A mesh fills the convex hull although the facets enclose less (`fills-hull`).
     FillsHull,
     /// Delaunayhood was not checked (`any-triangulation`).
@@ -96,6 +109,12 @@ impl NoteCode {
             NoteCode::RepeatedFacets => "repeated-facets",
             NoteCode::MissingMarkers => "missing-markers",
             NoteCode::MergedByAngle => "merged-by-angle",
+            NoteCode::FlatToPrecision => "flat-to-precision",
+            NoteCode::LeftApart => "left-apart",
+            NoteCode::Welded => "welded",
+            NoteCode::NotWelded => "not-welded",
+            NoteCode::FacetsDivided => "facets-divided",
+            NoteCode::NearVertices => "near-vertices",
             NoteCode::FillsHull => "fills-hull",
             NoteCode::AnyTriangulation => "any-triangulation",
             NoteCode::SkippedFiles => "skipped-files",

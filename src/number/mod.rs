@@ -24,6 +24,7 @@ mod integer;
 mod parameter;
 mod rational;
 mod sign;
+pub(crate) mod slab;
 pub(crate) mod vector;
 mod wide;
 

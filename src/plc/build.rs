@@ -5,7 +5,9 @@
 //! [`super::subdivision`] for what facets of many edges cost.
 
 use super::facet::{FacetInput, undirected};
+use super::flatness::FlatnessRule;
 use super::merge::Overlapping;
+use super::merge_near::{self, MergeCounts};
 use super::{Complex, EdgeName, FacetName, PlcError, Polygon, VertexName, merge};
 use crate::exchange::{Plc, Segment};
 use crate::mesh::VertexId;
@@ -21,6 +23,20 @@ impl Complex {
     /// edge of the polygon. Intersections between different facets and segments are not looked for, except facets that
     /// are given twice, and, when merging, those that overlap beside a common edge.
     pub fn new(plc: &Plc, merge_coplanar: bool) -> Result<Complex, PlcError> {
+        let (complex, _) = Complex::flat_to(plc, merge_coplanar, &FlatnessRule::EXACT)?;
+        Ok(complex)
+    }
+
+    /// [`Complex::new`] with a rule for what counts as flat, and what was merged by it. Facets that are merged so are
+    /// merged after those that are exactly coplanar.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn flat_to(
+        plc: &Plc,
+        merge_coplanar: bool,
+        rule: &FlatnessRule,
+    ) -> Result<(Complex, MergeCounts), PlcError> {
         check_points(plc)?;
         check_rows(plc)?;
         let representative = representatives(&plc.vertices);
@@ -35,7 +51,7 @@ impl Complex {
         let mut explicit: FxHashSet<_> = given.iter().map(|s| undirected(s.ends)).collect();
         let mut polygons = Vec::with_capacity(plc.facets.len());
         for index in 0..plc.facets.len() {
-            let facet = FacetInput::new(plc, index, &representative)?;
+            let facet = FacetInput::new(plc, index, &representative, rule.delta)?;
             for ends in facet.edges() {
                 segments.add(Segment { ends, marker: 0 });
             }
@@ -59,26 +75,37 @@ impl Complex {
                 segments.retain(|s| !merged.dropped.contains(&undirected(s.ends)));
             }
         }
-        Ok(Complex {
+        let mut counts = MergeCounts::default();
+        if merge_coplanar && rule.merges() {
+            let merged = merge_near::merge_near(plc, polygons, &explicit, rule);
+            (polygons, counts) = (merged.polygons, merged.counts);
+            if !merged.dropped.is_empty() {
+                check_different(plc, &polygons)?;
+                segments.retain(|s| !merged.dropped.contains(&undirected(s.ends)));
+            }
+        }
+        let complex = Complex {
             representative,
             segments,
             diagonals: 0,
             polygons,
-        })
+        };
+        Ok((complex, counts))
     }
 }
 
 /// The polygons of the facets that have an area, those merged that [`Complex::new`] would merge, but for polygons that
-/// overlap beside a common edge.
+/// overlap beside a common edge. Vertices of one facet are on a plane if they are within `delta` of it.
 pub(crate) fn merged_polygons(
     plc: &Plc,
     representative: &[VertexId],
+    delta: f64,
 ) -> Result<Vec<Polygon>, PlcError> {
     let given = given_segments(plc, representative)?;
     let mut explicit: FxHashSet<_> = given.iter().map(|s| undirected(s.ends)).collect();
     let mut polygons = Vec::with_capacity(plc.facets.len());
     for index in 0..plc.facets.len() {
-        let facet = FacetInput::new(plc, index, representative)?;
+        let facet = FacetInput::new(plc, index, representative, delta)?;
         explicit.extend(floating_edges(&facet));
         if facet.is_area() {
             let polygon = facet.polygon()?;

@@ -12,6 +12,7 @@ use super::{EdgeName, FacetName, PlcError, Polygon, VertexName};
 use crate::exchange::Plc;
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use crate::number::slab::Slab;
 use std::borrow::Cow;
 
 /// The polygons of a facet after duplicate vertices have been merged.
@@ -22,6 +23,8 @@ pub(crate) struct FacetInput<'a> {
     pub index: usize,
     /// Its polygons, checked by [`FacetInput::new`].
     pub polygons: Cow<'a, [Vec<VertexId>]>,
+    /// How far vertices may be from its plane, along each axis.
+    delta: f64,
 }
 
 impl<'a> FacetInput<'a> {
@@ -30,6 +33,7 @@ impl<'a> FacetInput<'a> {
         plc: &'a Plc,
         index: usize,
         representative: &[VertexId],
+        delta: f64,
     ) -> Result<FacetInput<'a>, PlcError> {
         let facet = || FacetName::new(plc, index);
         let given = &plc.facets[index].polygons;
@@ -67,6 +71,7 @@ impl<'a> FacetInput<'a> {
             } else {
                 Cow::Owned(mapped)
             },
+            delta,
         })
     }
 
@@ -207,12 +212,23 @@ impl<'a> FacetInput<'a> {
         match frame::flatness(points, frame, vertices) {
             Flatness::Flat => Ok((frame, true)),
             Flatness::NearlyFlat => Ok((frame, false)),
+            Flatness::NotPlanar(..) if self.is_flat_to_precision(frame, vertices) => {
+                Ok((frame, false))
+            }
             Flatness::NotPlanar(vertex, distance) => Err(PlcError::NotPlanar {
                 facet: self.name(),
                 vertex: VertexName::new(self.plc, vertex),
                 distance,
             }),
         }
+    }
+
+    /// Whether some plane is within δ of all vertices.
+    fn is_flat_to_precision(&self, frame: [VertexId; 3], vertices: &[VertexId]) -> bool {
+        let at = |v: VertexId| self.plc.vertices[v.index()];
+        let points: Vec<[f64; 3]> = vertices.iter().map(|&v| at(v)).collect();
+        let slab = Slab::of(frame.map(at)).filter(|_| self.delta > 0.0);
+        slab.is_some_and(|mut slab| slab.fit(&points, 0, self.delta))
     }
 
     /// The projection that suits a frame, and the orientation of the frame in it.

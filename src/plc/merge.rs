@@ -2,11 +2,11 @@
 //! format knows nothing but triangles.
 //!
 //! Two facets are joined across an edge if it is an edge of these two alone, once in each, was not given explicitly,
-//! both facets have the same marker, and all their vertices lie exactly on one plane. (Nearly flat facets are never
-//! joined.) Two such facets on the same side of their edge overlap, whatever their markers: an error. Joining is
-//! transitive (union-find), and because every join is on one exact plane, so is the whole group. Edges dropped are
-//! those across which two facets were joined, and no others: an explicit segment inside the merged polygon stays in
-//! both directions.
+//! both facets have the same marker, and all their vertices lie exactly on one plane. (Nearly flat facets are joined
+//! afterwards, if at all: [`super::merge_near`].) Two such facets on the same side of their edge overlap, whatever
+//! their markers: an error. Joining is transitive (union-find), and because every join is on one exact plane, so is the
+//! whole group. Edges dropped are those across which two facets were joined, and no others: an explicit segment inside
+//! the merged polygon stays in both directions.
 //!
 //! O(n + k) for k edges of polygons on n vertices with few edges each, one orientation test for each edge between
 //! triangles.
@@ -21,11 +21,11 @@ use rustc_hash::FxHashSet;
 
 /// A directed edge of a polygon, by its greater end.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
-    end: VertexId,
-    polygon: u32,
+pub(super) struct Side {
+    pub(super) end: VertexId,
+    pub(super) polygon: u32,
     /// Whether it leads to its greater end.
-    ascends: bool,
+    pub(super) ascends: bool,
 }
 
 /// Polygons after merging.
@@ -119,7 +119,7 @@ pub(super) fn merge(
 }
 
 /// All edges of all polygons by their lesser ends, of n vertices, sorted so that those with the same ends are together.
-fn sides(n: usize, polygons: &[Polygon]) -> Groups<Side> {
+pub(super) fn sides(n: usize, polygons: &[Polygon]) -> Groups<Side> {
     let mut sides = Groups::new(n, (0u32..).zip(polygons).flat_map(sides_of));
     sides.sort_groups(|&side| side);
     sides

@@ -26,6 +26,16 @@ impl Projection {
         Some((Projection { axis }, sign))
     }
 
+    /// The projection along a coordinate axis.
+    pub fn along(axis: usize) -> Projection {
+        Projection { axis }
+    }
+
+    /// The axis along which it projects.
+    pub fn axis(self) -> usize {
+        self.axis
+    }
+
     /// The two coordinates that are kept.
     pub fn point(self, p: [f64; 3]) -> Point {
         [p[(self.axis + 1) % 3], p[(self.axis + 2) % 3]]

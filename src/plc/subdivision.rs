@@ -9,9 +9,11 @@
 //! Edges must be distinct and meet in common ends only ([`super::crossing`]). O(k log k + (c + h)k) for k edges, c
 //! components and floating vertices, h hole points.
 
+use super::facet::undirected;
 use super::plane::{Point, Projected, area_sign, on_segment, orient2d};
 use crate::mesh::VertexId;
 use crate::number::Sign;
+use rustc_hash::FxHashSet;
 use std::cmp::Ordering;
 
 /// The part of the plane that belongs to a facet.
@@ -66,6 +68,25 @@ pub(super) fn area(
         edges: directed,
         floating: floating.iter().copied().filter(is_inside).collect(),
         holes_used,
+    })
+}
+
+/// Whether edges that meet in common ends only bound an area on their left, once: each face of the graph that they are
+/// has all of its edges so directed, or none, and the unbounded one none. Both directions of an edge inside the area
+/// are given.
+pub(super) fn bound_area(plane: &Projected, directed: &[[VertexId; 2]]) -> bool {
+    let mut edges: Vec<[VertexId; 2]> = directed.iter().copied().map(undirected).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    let given: FxHashSet<[VertexId; 2]> = directed.iter().copied().collect();
+    let graph = Subdivision::new(plane, &edges);
+    let mut is_inside: Vec<Option<bool>> = vec![None; graph.walks.len()];
+    (0..graph.ends.len()).all(|h| {
+        let inside = given.contains(&graph.ends[h]);
+        match graph.face[graph.walk_of[h]] {
+            None => !inside,
+            Some(face) => *is_inside[face].get_or_insert(inside) == inside,
+        }
     })
 }
 

@@ -35,7 +35,7 @@ impl Complex {
                 continue;
             }
             count += 1;
-            let triangles = triangulate(plc, &polygon)?;
+            let triangles = triangles_of(plc, &polygon)?;
             let edges = triangles.iter().flat_map(|t| &t.edges);
             for ends in edges.map(|&edge| undirected(edge)) {
                 if known.insert(ends) {
@@ -50,7 +50,12 @@ impl Complex {
     }
 }
 
-fn triangulate(plc: &Plc, polygon: &Polygon) -> Result<Vec<Polygon>, PlcError> {
+/// The constrained Delaunay triangulation of a polygon in the projection of its frame, as triangles that turn as it
+/// does.
+///
+/// # Errors
+/// As [`Complex::triangulate_not_flat`].
+pub(crate) fn triangles_of(plc: &Plc, polygon: &Polygon) -> Result<Vec<Polygon>, PlcError> {
     let points = &plc.vertices;
     let corners = polygon.frame.map(|v| points[v.index()]);
     let (projection, sign) = Projection::of(corners).expect("a frame is not collinear");

@@ -14,7 +14,7 @@ use crate::plc::{EdgeName, FacetInput, FacetName, PlcError, VertexName};
 /// # Errors
 /// The first error that is left.
 pub(super) fn mend(plc: &Plc, parts: &Parts, repairs: &mut Repairs) -> Result<Draft, PlcError> {
-    let mut draft = Draft::of(plc);
+    let mut draft = Draft::of(plc, parts.delta);
     let mut broken: Vec<usize> = parts.errors.iter().flat_map(PlcError::facets).collect();
     broken.sort_unstable();
     broken.dedup();
@@ -69,7 +69,7 @@ fn mend_facet(draft: &mut Draft, index: usize, repairs: &mut Repairs) -> Result<
         if draft.plc.facets[index].polygons.is_empty() {
             return Ok(false);
         }
-        let checked = FacetInput::new(&draft.plc, index, &draft.representative);
+        let checked = FacetInput::new(&draft.plc, index, &draft.representative, draft.delta);
         let checked = checked.and_then(|facet| match facet.is_area() {
             true => facet.polygon().map(drop),
             false => Ok(()),

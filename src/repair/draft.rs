@@ -11,6 +11,8 @@ pub(super) struct Draft {
     pub plc: Plc,
     /// The first vertex with the coordinates of each.
     pub representative: Vec<VertexId>,
+    /// How far vertices may be from the planes of their facets.
+    pub delta: f64,
 }
 
 /// A facet that takes the place of others.
@@ -25,7 +27,7 @@ pub(super) struct Replacement {
 
 impl Draft {
     /// A copy of the input.
-    pub fn of(plc: &Plc) -> Draft {
+    pub fn of(plc: &Plc, delta: f64) -> Draft {
         let mut plc = plc.clone();
         if plc.origins.is_empty() {
             plc.origins = (0..plc.facets.len()).map(|i| vec![i]).collect();
@@ -33,12 +35,18 @@ impl Draft {
         Draft {
             representative: representatives(&plc.vertices),
             plc,
+            delta,
         }
     }
 
     /// A facet with representatives for corners, which is known to be valid for itself up to here.
     pub fn facet(&self, index: usize) -> Result<FacetInput<'_>, Refused> {
-        Ok(FacetInput::new(&self.plc, index, &self.representative)?)
+        Ok(FacetInput::new(
+            &self.plc,
+            index,
+            &self.representative,
+            self.delta,
+        )?)
     }
 
     /// Drops the facets that are `gone`, and puts others in their places.

@@ -17,7 +17,7 @@ pub(super) fn merge(draft: &mut Draft, parts: &Parts, found: &Contacts) -> Resul
     }
     let mut gone = vec![false; draft.plc.facets.len()];
     let mut replacements = Vec::new();
-    for polygon in merged_polygons(&draft.plc, &draft.representative)? {
+    for polygon in merged_polygons(&draft.plc, &draft.representative, draft.delta)? {
         if polygon.facets.len() == 1 || !polygon.facets.iter().any(|&f| in_contact[f]) {
             continue;
         }

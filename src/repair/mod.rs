@@ -23,34 +23,40 @@
 
 mod alone;
 mod areas;
+mod divide;
 mod draft;
 mod edges;
 mod inside;
 mod merged;
 mod notes;
 mod overlaps;
-mod precision;
 #[cfg(test)]
 mod tests;
+mod weld;
 
-use crate::check::{Findings, Part, Parts, check, contacts, crossing_findings};
+use crate::check::{Findings, Part, Parts, check_to, contacts, crossing_findings};
 use crate::exchange::{Note, Plc, Segment};
 use crate::mesh::TetMesh;
 use crate::plc::PlcError;
-pub use precision::{Precision, Rounding};
+
+pub use divide::divide;
+pub use weld::{Refusal, Welding};
 
 use draft::Draft;
 use notes::Repairs;
 use std::borrow::Cow;
 
 /// What is allowed to be repaired.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RepairOptions {
     /// Nothing is: what would have to be repaired is refused.
     pub strict: bool,
     /// Coplanar facets are merged later on ([`Complex::new`](crate::plc::Complex::new)), so that the edges between them
     /// may cross others.
     pub merge_coplanar: bool,
+    /// The precision of the input: vertices within this distance of the plane of their facet, along each axis, are on
+    /// it.
+    pub delta: f64,
 }
 
 impl Default for RepairOptions {
@@ -58,6 +64,7 @@ impl Default for RepairOptions {
         RepairOptions {
             strict: false,
             merge_coplanar: true,
+            delta: 0.0,
         }
     }
 }
@@ -104,7 +111,7 @@ pub fn repair_beside<'p>(
     options: RepairOptions,
     delaunay: Option<&TetMesh>,
 ) -> Result<Repaired<'p>, Box<Findings>> {
-    let parts = Parts::new(plc);
+    let parts = Parts::new(plc, options.delta);
     let is_final = |error: &PlcError| options.strict || !error.is_repairable();
     if parts.errors.iter().any(is_final) {
         let mut errors = parts.errors;
@@ -117,7 +124,7 @@ pub fn repair_beside<'p>(
     if !parts.errors.is_empty() {
         let mended = alone::mend(plc, &parts, &mut repairs);
         let mended = mended.map_err(|error| alone_wrong(vec![error]))?;
-        parts = Parts::new(&mended.plc);
+        parts = Parts::new(&mended.plc, options.delta);
         draft = Some(mended);
     }
     let current = draft.as_ref().map_or(plc, |draft| &draft.plc);
@@ -132,10 +139,10 @@ pub fn repair_beside<'p>(
         return Ok(Repaired { plc, notes });
     }
     if options.strict {
-        return Err(Box::new(check(plc, Some(LISTED))));
+        return Err(Box::new(check_to(plc, Some(LISTED), options.delta)));
     }
     let before = draft.as_ref().map(|draft| draft.plc.clone());
-    let mut draft = draft.unwrap_or_else(|| Draft::of(plc));
+    let mut draft = draft.unwrap_or_else(|| Draft::of(plc, options.delta));
     match contacts_resolved(&mut draft, parts, found, options, delaunay, &mut repairs) {
         Ok(()) => Ok(Repaired {
             plc: Cow::Owned(draft.plc),
@@ -144,7 +151,12 @@ pub fn repair_beside<'p>(
         Err(Refused::Facet(error)) => Err(alone_wrong(vec![error])),
         Err(Refused::NeedsVertex) => {
             let before = before.as_ref().unwrap_or(plc);
-            Err(needing_vertex(plc, before, &Parts::new(before), &[]))
+            Err(needing_vertex(
+                plc,
+                before,
+                &Parts::new(before, options.delta),
+                &[],
+            ))
         }
     }
 }
@@ -163,14 +175,14 @@ fn contacts_resolved(
     repairs: &mut Repairs,
 ) -> Result<(), Refused> {
     if options.merge_coplanar && merged::merge(draft, &parts, &found)? {
-        parts = Parts::new(&draft.plc);
+        parts = Parts::new(&draft.plc, options.delta);
         let again = contacts(&draft.plc, &parts, true, 1, delaunay);
         found = again.map_err(|_| Refused::NeedsVertex)?;
     }
     edges::divide(draft, &parts, &found, repairs);
     inside::complete(draft, &parts, &found, repairs)?;
     overlaps::divide(draft, &parts, &found, repairs)?;
-    let parts = Parts::new(&draft.plc);
+    let parts = Parts::new(&draft.plc, options.delta);
     if let Some(error) = parts.errors.first() {
         return Err(Refused::Facet(error.clone()));
     }
@@ -195,7 +207,7 @@ fn needing_vertex(input: &Plc, plc: &Plc, parts: &Parts, pairs: &[[u32; 2]]) -> 
     let mut found = crossing_findings(plc, parts, pairs, pairs.len() >= LISTED);
     if pairs.is_empty() {
         // What remained after the repair does not show in single contacts.
-        found = check(plc, None);
+        found = check_to(plc, None, parts.delta);
         if found.conflicts.iter().any(|c| !c.repairable) {
             found.conflicts.retain(|c| !c.repairable);
         }

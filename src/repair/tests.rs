@@ -1,6 +1,7 @@
 //! Small inputs with every kind of defect, and random boxes on a lattice, whose unit squares must be covered once.
 
 use super::*;
+use crate::check::check;
 use crate::check::{Part, simplices_of_parts};
 use crate::delaunay::delaunay;
 use crate::exchange::{Facet, NoteCode};

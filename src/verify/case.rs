@@ -25,6 +25,11 @@ pub(crate) struct Case<'a> {
 }
 
 impl Case<'_> {
+    /// Whether facets may have been merged that are not exactly coplanar.
+    pub(crate) fn merges_near(&self) -> bool {
+        self.options.merge_angle.is_some() || self.options.precision > 0.0
+    }
+
     /// A point with its coordinates.
     pub(crate) fn place(&self, id: VertexId) -> Place {
         Place {

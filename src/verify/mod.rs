@@ -91,7 +91,7 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
     if !findings.is_empty() {
         return findings.verdict();
     }
-    let (input, points) = Input::new(plc, &used, mesh, exact);
+    let (input, points) = Input::new(plc, &used, mesh, exact, options.precision);
     let asked = (plc.facets.is_empty() && plc.segments.is_empty() && mesh.regions.is_empty())
         .then(|| claims::listed::vertices(mesh, used.len()));
     let tets = Cow::Borrowed(&mesh.tets[..]);
@@ -118,6 +118,7 @@ pub fn verify(plc: &Plc, mesh: &ExportedMesh, options: VerifyOptions) -> Verdict
         rounding: VerifyOptions::default().tolerance * ulp(points.largest()),
     };
     findings.counts.tolerance = case.tolerance;
+    findings.counts.welded = case.input.welded;
     findings.counts.facets_repeated = case.input.repeated();
     let listed = claims::listed::check(&case, &mut findings);
     claims::adjacency::check(&case, &mut findings);
@@ -146,7 +147,7 @@ mod tests {
     /// What the checks look at, for a mesh that uses all its vertices.
     pub(crate) fn with_case(plc: &Plc, mesh: &ExportedMesh, look: impl FnOnce(&Case)) {
         let used = vec![true; mesh.vertices.len()];
-        let (input, points) = Input::new(plc, &used, mesh, rustc_hash::FxHashMap::default());
+        let (input, points) = Input::new(plc, &used, mesh, rustc_hash::FxHashMap::default(), 0.0);
         let tables = Tables::new(&points, Cow::Borrowed(&mesh.tets), used, None);
         look(&Case {
             plc,

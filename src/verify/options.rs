@@ -24,6 +24,9 @@ pub struct VerifyOptions {
     pub domain: Domain,
     /// How far a Steiner point may be from its segment or facet, in units in the last place of the largest coordinate.
     pub tolerance: f64,
+    /// The precision of the input: adjacent facets with one marker may have been merged if some plane is within this
+    /// distance, along each axis, of all their vertices. 0 if only exactly coplanar ones may have been.
+    pub precision: f64,
     /// If given, facets with one marker may have been merged if the dihedral angle between them is at least this many
     /// degrees (TetGen: 179.9). Otherwise only exactly coplanar ones. If the mesh lists edges, such a merged edge may
     /// be an edge of the mesh by chance, but is not listed.
@@ -39,6 +42,7 @@ impl Default for VerifyOptions {
         VerifyOptions {
             domain: Domain::Auto,
             tolerance: 8.0,
+            precision: 0.0,
             merge_angle: None,
             any_triangulation: false,
             cap: 20,

@@ -25,6 +25,8 @@ pub struct Counts {
     pub input_vertices: usize,
     /// Input vertices in no tetrahedron: outside the domain.
     pub input_vertices_outside: usize,
+    /// Input vertices that were welded to others, to the stated precision.
+    pub welded: usize,
     /// Faces.
     pub faces: usize,
     /// Faces with one tetrahedron.
@@ -65,6 +67,8 @@ pub struct Counts {
     pub facets: usize,
     /// The groups into which merged edges join the facets.
     pub facet_groups: usize,
+    /// Groups of facets on one plane to the stated precision only.
+    pub groups_flat_to_precision: usize,
     /// Groups that are one flat facet, some of whose mesh faces are not exactly flat.
     pub facets_rounded: usize,
     /// Groups without an area.
@@ -101,6 +105,7 @@ impl Counts {
         self.segment_vertices_rounded += more.segment_vertices_rounded;
         self.facets += more.facets;
         self.facet_groups += more.facet_groups;
+        self.groups_flat_to_precision += more.groups_flat_to_precision;
         self.facets_rounded += more.facets_rounded;
         self.facets_degenerate += more.facets_degenerate;
         self.facet_parts_outside += more.facet_parts_outside;
@@ -182,6 +187,13 @@ impl fmt::Display for Verdict {
             "facets: {} in {} groups, {} rounded, {} without area; {} parts outside",
             c.facets, c.facet_groups, c.facets_rounded, c.facets_degenerate, c.facet_parts_outside
         )?;
+        if c.groups_flat_to_precision + c.welded > 0 {
+            writeln!(
+                f,
+                "to the stated precision: {} groups are flat, {} input vertices welded",
+                c.groups_flat_to_precision, c.welded
+            )?;
+        }
         writeln!(
             f,
             "voids: {}, hole points meshed: {}, region points: {}, hull edges dented by rounding: {}",

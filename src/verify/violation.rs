@@ -107,6 +107,16 @@ pub enum Violation {
         /// The tetrahedra behind them.
         tets: [usize; 2],
     },
+    /// Facets whose common edges are not in the mesh are not on one plane to the stated precision.
+    #[error(
+        "facets {facets:?} were merged, but are not on one plane: a vertex is {distance:.3e} from that of others"
+    )]
+    MergedNotFlat {
+        /// The facets.
+        facets: Vec<usize>,
+        /// The largest distance of a vertex from the plane of three others.
+        distance: f64,
+    },
     /// The mesh lists a face that is on no facet, and not on the boundary.
     #[error("listed face {index}, {}, {}, {}, is on no facet", .face[0], .face[1], .face[2])]
     ListedNotOnFacet {
@@ -342,6 +352,7 @@ impl Violation {
             Violation::MissingVertex { .. } => "missing vertex",
             Violation::Orientation { .. } => "orientation",
             Violation::BoundaryCrosses { .. } => "boundary crosses",
+            Violation::MergedNotFlat { .. } => "merged but not flat",
             Violation::ListedNotOnFacet { .. } => "listed but not on a facet",
             Violation::FaceNotListed { .. } => "face not listed",
             Violation::WrongMarker { .. } => "wrong marker",

@@ -23,6 +23,7 @@ mod not_flat;
 mod number_agreement;
 mod one_call;
 mod one_call_repairs;
+mod precision;
 #[cfg(feature = "cli")]
 mod program;
 mod repair;

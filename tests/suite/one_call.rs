@@ -126,6 +126,7 @@ fn any_options() -> impl Strategy<Value = MeshOptions> {
             steiner,
             drop_unused,
             strict,
+            ..MeshOptions::DEFAULT
         }
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{plc_of_points, quiet};
 use proptest::prelude::*;
-use tetflip::cdt::{Cdt, MeshOptions, Options, SteinerChoice, tetrahedralize};
+use tetflip::cdt::{Cdt, MeshOptions, Options, PrecisionChoice, SteinerChoice, tetrahedralize};
 use tetflip::error::{Failure, GaveUp, InvalidPlc};
 use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::{Facet, Plc, Segment};
@@ -223,6 +223,7 @@ fn vertices_as_near_as_rounding_are_named() {
         let options = MeshOptions {
             keep_hull: true,
             steiner,
+            precision: PrecisionChoice::Exact,
             ..MeshOptions::default()
         };
         let error = tetflip::mesh(&plc, &options).expect_err("there is hardly an end");

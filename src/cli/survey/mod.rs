@@ -27,7 +27,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::time::Instant;
 use table::{Run, Table};
-use tetflip::exchange::{Note, NoteCode};
+use tetflip::exchange::{Note, NoteCode, PrecisionChoice};
 use tetflip::lab::{Shard, fnv1a};
 use worker::{Job, work};
 
@@ -80,6 +80,10 @@ pub(crate) struct SurveyArguments {
     /// Do not merge coplanar adjacent facets.
     #[arg(long)]
     no_merge: bool,
+    /// How far coordinates may be from what was meant: `auto` (what their values tell, see `mesh --help`), `exact`, or
+    /// a distance.
+    #[arg(long, value_name = "auto|exact|DISTANCE", default_value = "auto")]
+    precision: PrecisionChoice,
     /// Do not verify meshes.
     #[arg(long)]
     no_verify: bool,
@@ -114,6 +118,7 @@ pub(crate) fn survey(arguments: &SurveyArguments) -> Result<(), Stop> {
     let settings = Settings {
         keep_hull: arguments.hull,
         merge_coplanar: !arguments.no_merge,
+        precision: arguments.precision,
         verify: !arguments.no_verify,
         memory: arguments.memory,
         timeout: arguments.timeout,
@@ -213,6 +218,7 @@ fn worker(arguments: &SurveyArguments, settings: &Settings) -> Result<(), Stop> 
         steiner,
         keep_hull: settings.keep_hull,
         merge_coplanar: settings.merge_coplanar,
+        precision: settings.precision,
         verify: settings.verify,
         memory: settings.memory,
         timeout: settings.timeout,

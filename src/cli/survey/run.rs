@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use tetflip::exchange::PrecisionChoice;
 use tetflip::lab::tetgen::signal_name;
 
 /// How long a process that has been told to end may take over it.
@@ -17,6 +18,7 @@ const GRACE: Duration = Duration::from_secs(2);
 pub(super) struct Settings {
     pub keep_hull: bool,
     pub merge_coplanar: bool,
+    pub precision: PrecisionChoice,
     pub verify: bool,
     /// MiB.
     pub memory: u64,
@@ -40,6 +42,7 @@ pub(super) fn run(model: &Path, method: Method, settings: &Settings) -> io::Resu
         steiner: method.steiner,
         keep_hull: settings.keep_hull,
         merge_coplanar: settings.merge_coplanar,
+        precision: settings.precision,
         verify: settings.verify,
         memory: settings.memory,
         timeout: settings.timeout,
@@ -79,6 +82,7 @@ fn arguments(job: &Job) -> Vec<std::ffi::OsString> {
     let mut words: Vec<std::ffi::OsString> = vec![
         format!("--methods={}", job.algorithm).into(),
         format!("--steiner={}", job.steiner).into(),
+        format!("--precision={}", job.precision).into(),
         format!("--memory={}", job.memory).into(),
         format!("--timeout={}", job.timeout).into(),
     ];

@@ -13,14 +13,15 @@ use std::io::{self, Read, Write as _};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
-use tetflip::cdt::{Options, tetrahedralize};
-use tetflip::check::check;
+use tetflip::cdt::{FlatnessRule, Options, PrecisionChoice, tetrahedralize_to};
+use tetflip::check::check_to;
 use tetflip::error::{DomainError, Failure, GaveUp};
 use tetflip::exchange::ExportedMesh;
 use tetflip::exchange::Plc;
 use tetflip::format::{FormatError, read_plc};
 use tetflip::lab::fnv1a;
 use tetflip::recover::polygons::Insertion;
+use tetflip::repair::Welding;
 use tetflip::report::Report;
 use tetflip::verify::{Domain, Verdict, VerifyOptions, verify};
 
@@ -38,6 +39,7 @@ pub(super) struct Job<'a> {
     pub steiner: Steiner,
     pub keep_hull: bool,
     pub merge_coplanar: bool,
+    pub precision: PrecisionChoice,
     pub verify: bool,
     /// MiB.
     pub memory: u64,
@@ -131,7 +133,7 @@ pub(super) fn work(model: &Path, job: &Job) {
     ));
     let mesh = match job.algorithm {
         Algorithm::Check => {
-            check_input(&plc, &mut findings);
+            check_input(&plc, job.precision.of(&plc.vertices).delta, &mut findings);
             None
         }
         Algorithm::Ours(insertion) => ours(&plc, insertion, job, &mut findings),
@@ -199,12 +201,23 @@ fn ours(
     let mut report = Report::default();
     let mut inserting = false;
     let start = Instant::now();
-    let result = tetrahedralize(plc, &options, &mut report, &mut |_| {
+    let precision = job.precision.of(&plc.vertices);
+    let rule = FlatnessRule::of(precision);
+    let welding = Welding::of(plc, precision.delta);
+    let welded = welding.plc.as_ref().unwrap_or(plc);
+    let mut progress = |_| {
         if !inserting {
             send(&Line::Stage("inserting polygons".to_owned()));
             inserting = true;
         }
-    });
+    };
+    let mut result = tetrahedralize_to(welded, &options, &rule, &mut report, &mut progress);
+    if result.is_err() && report.merged_near.polygons > 0 {
+        report = Report::default();
+        result = tetrahedralize_to(welded, &options, &rule.apart(), &mut report, &mut progress);
+    }
+    report.precision = precision;
+    report.welded_vertices = welding.welded.iter().map(|c| c.len() - 1).sum();
     findings.seconds_mesh = start.elapsed().as_secs_f64();
     findings.steiner_points = Some(report.steiner_points);
     findings.flips = Some(report.insertion_counts.flips.flips());
@@ -223,9 +236,9 @@ fn ours(
 }
 
 /// Finds the intersections of the input: the first is the message, all are counted, up to [`CONFLICTS`].
-fn check_input(plc: &Plc, findings: &mut Findings) {
+fn check_input(plc: &Plc, delta: f64, findings: &mut Findings) {
     let start = Instant::now();
-    let found = check(plc, Some(CONFLICTS));
+    let found = check_to(plc, Some(CONFLICTS), delta);
     findings.seconds_mesh = start.elapsed().as_secs_f64();
     findings.violations = found.errors.len() + found.conflicts.len();
     let first_error = found.errors.first().map(|e| (variant(e), e.to_string()));
@@ -273,6 +286,7 @@ fn judge(plc: &Plc, mesh: &ExportedMesh, job: &Job, findings: &mut Findings) {
         } else {
             Domain::Inside
         },
+        precision: job.precision.of(&plc.vertices).delta,
         cap: SHOWN,
         ..VerifyOptions::default()
     };

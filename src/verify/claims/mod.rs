@@ -5,6 +5,7 @@ pub(crate) mod crossings;
 pub(crate) mod delaunay;
 pub(crate) mod domain;
 pub(crate) mod facets;
+pub(crate) mod flatness;
 pub(crate) mod listed;
 pub(crate) mod markers;
 pub(crate) mod orientation;

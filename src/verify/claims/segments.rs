@@ -13,6 +13,7 @@ use crate::mesh::VertexId;
 use crate::number::vector::{cross, dot, minus};
 use crate::threads;
 use crate::verify::case::Case;
+use crate::verify::claims::flatness;
 use crate::verify::claims::listed::Listed;
 use crate::verify::lookup::area::Area;
 use crate::verify::lookup::tables::sorted2;
@@ -76,7 +77,7 @@ fn fate(case: &Case, e: usize, listed: &Listed, findings: &mut Findings) -> Fate
         let has_edge = |e| listed.surface.has_edge(sorted2(e)) || case.tables.has_edge(e);
         chain(case, edge.ends, &|v| case.tables.neighbours(v), &has_edge)
     });
-    let unlisted = case.options.merge_angle.is_some()
+    let unlisted = case.merges_near()
         && found
             .as_ref()
             .is_some_and(|c| is_unlisted(listed, c, edge.ends));
@@ -191,7 +192,8 @@ fn leaves(case: &Case, [a, b]: [VertexId; 2]) -> bool {
 }
 
 /// Whether the edge is of exactly two facets (not counting equal ones) with the same markers, on opposite sides of it,
-/// whose planes are the same exactly or within [`super::super::options::VerifyOptions::merge_angle`].
+/// whose planes are the same: exactly, to [`super::super::options::VerifyOptions::precision`], or within
+/// [`super::super::options::VerifyOptions::merge_angle`].
 fn is_mergeable(case: &Case, e: usize) -> bool {
     let edge = &case.input.edges[e];
     let [f, g] = edge.facets[..] else {
@@ -205,18 +207,22 @@ fn is_mergeable(case: &Case, e: usize) -> bool {
     let [Some(p), Some(q)] = facets.map(|facet| facet.frame) else {
         return false;
     };
-    let Some(axes) = axes_of(case, p) else {
-        return false;
-    };
     let [a, b, c] = p;
     let coplanar = facets[0].flat
         && facets[1]
             .vertices
             .iter()
             .all(|&v| case.points.orient([a, b, c, v]).is_zero());
-    if !coplanar && !within_angle(case, p, q) {
+    let axes = if coplanar {
+        axes_of(case, p)
+    } else if flatness::is_flat(case, &[f, g]) {
+        flatness::axes(case, &[f, g])
+    } else {
+        axes_of(case, p).filter(|_| within_angle(case, p, q))
+    };
+    let Some(axes) = axes else {
         return false;
-    }
+    };
     let sides = facets.map(|facet| {
         let edges: Vec<_> = facet
             .edges

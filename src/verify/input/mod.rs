@@ -5,6 +5,7 @@
 //! overlap in their plane or be equal, corners may be repeated. A facet without an area claims nothing.
 
 pub(crate) mod edges;
+mod welds;
 
 use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
@@ -56,6 +57,8 @@ pub(crate) struct Input {
     pub(crate) coincident: Vec<[VertexId; 2]>,
     /// Where the used mesh vertices are that are doubles, and the input vertices that are none.
     pub(crate) places: Places,
+    /// Input vertices that are taken for others, as the mesh has them welded.
+    pub(crate) welded: usize,
     /// The facets that are equal to an earlier one, with the first such, in increasing order.
     repeated: Vec<(usize, usize)>,
     /// The same the other way round.
@@ -66,12 +69,13 @@ pub(crate) struct Input {
 
 impl Input {
     /// `used[v]` says whether mesh vertex v is in a tetrahedron. `exact` are those that are not where their doubles
-    /// say.
+    /// say. Input vertices that the mesh has not may have been welded to others, to a `precision`.
     pub(crate) fn new(
         plc: &Plc,
         used: &[bool],
         mesh: &ExportedMesh,
         exact: FxHashMap<VertexId, Vec3<Dyadic>>,
+        precision: f64,
     ) -> (Input, Points) {
         // The vertices of the mesh, then the other points of the input.
         let mut coordinates = mesh.vertices.clone();
@@ -107,6 +111,8 @@ impl Input {
             }
             site_of.push(site);
         }
+        let is_used = |v: VertexId| used.get(v.index()).is_some_and(|&used| used);
+        let welded = welds::find(plc, &mut site_of, is_used, precision);
         let mut add = |p: [f64; 3]| {
             coordinates.push(p);
             VertexId::new(coordinates.len() - 1)
@@ -171,6 +177,7 @@ impl Input {
                 holes,
                 regions,
                 coincident,
+                welded,
                 places,
                 repeats,
                 boxes: OnceLock::new(),
@@ -222,7 +229,7 @@ impl Input {
 
 /// The first vertex, the one farthest from it, and the one that makes the largest triangle with both; exactly not
 /// collinear, or none.
-fn frame(points: &Points, vertices: &[VertexId]) -> Option<[VertexId; 3]> {
+pub(crate) fn frame(points: &Points, vertices: &[VertexId]) -> Option<[VertexId; 3]> {
     let (&a, rest) = vertices.split_first()?;
     let origin = points.at(a);
     let farthest = |v: &VertexId| {

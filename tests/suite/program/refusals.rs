@@ -303,7 +303,8 @@ fn failed_flips_leave_their_region_to_try_again() {
     let run = place
         .run("mesh a.poly --hull --times f64:plain -o x.node")
         .ends_with(1);
-    let again = "tetflip mesh x.failure.poly --hull --insert flip --times f64:plain";
+    let again =
+        "tetflip mesh x.failure.poly --hull --precision exact --insert flip --times f64:plain";
     assert!(
         run.stderr().ends_with(&format!("{again}\n")),
         "{}",

@@ -4,6 +4,7 @@ use crate::mesh::VertexId;
 use crate::number::Sign;
 use crate::verify::case::Case;
 use crate::verify::claims::facets::planes::{is_on_planes, planes};
+use crate::verify::claims::flatness;
 use crate::verify::claims::listed::Listed;
 use crate::verify::claims::segments::{Fate, axes_of};
 use crate::verify::lookup::area::{Area, distinct};
@@ -46,7 +47,10 @@ impl<'a> Finder<'a> {
     pub(crate) fn cover(&mut self, facets: &[usize]) -> Option<Found> {
         let case = self.case;
         let frame = facets.iter().find_map(|&f| case.input.facets[f].frame)?;
-        let axes = axes_of(case, frame)?;
+        let axes = match facets {
+            [_] => axes_of(case, frame)?,
+            _ => flatness::axes(case, facets)?,
+        };
         let mut boundary = Vec::new();
         for &f in facets {
             let quickly = polygon(case, self.fates, f, axes);

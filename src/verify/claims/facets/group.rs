@@ -8,7 +8,8 @@ use crate::verify::claims::facets::covering::{OutsidePart, PartialCover};
 use crate::verify::claims::facets::misfit::Misfit;
 use crate::verify::claims::facets::planes::{is_on_planes, planes};
 use crate::verify::claims::facets::{is_needed, is_uneven};
-use crate::verify::claims::segments::{Fate, axes_of};
+use crate::verify::claims::flatness;
+use crate::verify::claims::segments::Fate;
 use crate::verify::lookup::area::{Area, distinct};
 use crate::verify::lookup::slabs::Slabs;
 use crate::verify::lookup::tables::sorted2;
@@ -46,8 +47,7 @@ pub(crate) struct Group<'a> {
 impl<'a> Group<'a> {
     /// None if it has no area.
     pub(crate) fn new(case: &'a Case<'a>, fates: &[Fate], facets: Vec<usize>) -> Option<Group<'a>> {
-        let frame = facets.iter().find_map(|&f| case.input.facets[f].frame)?;
-        let axes = axes_of(case, frame)?;
+        let axes = flatness::axes(case, &facets)?;
         let edges_of = |f: usize| {
             let edges = case.input.facets[f].edges.iter();
             distinct(edges.flat_map(|&e| fates[e].edges(case.input.edges[e].ends)))

@@ -37,10 +37,12 @@ mod planes;
 use crate::threads;
 use crate::verify::case::Case;
 use crate::verify::claims::delaunay::is_locally_delaunay;
+use crate::verify::claims::flatness;
 use crate::verify::claims::listed::Listed;
 use crate::verify::claims::regions;
 use crate::verify::claims::segments::Fate;
 use crate::verify::verdict::Findings;
+use crate::verify::violation::Violation;
 use covering::{Cover, PartialCover};
 use finder::Finder;
 use group::Group;
@@ -97,6 +99,9 @@ fn cover_all(
                 continue;
             }
             let group: Vec<usize> = group.iter().map(|&(_, f)| f).collect();
+            if !is_one_polygon(case, &group, &mut own) {
+                continue;
+            }
             if let Some(found) = finder.as_mut().and_then(|finder| finder.cover(&group)) {
                 own.counts.facets += group.len();
                 own.counts.facets_rounded += usize::from(found.rounded);
@@ -134,7 +139,26 @@ fn is_needed(case: &Case, f: usize) -> bool {
 /// Whether some of the facets may not be exactly on one plane.
 fn is_uneven(case: &Case, facets: &[usize]) -> bool {
     let bent = |&f: &usize| !case.input.facets[f].flat && case.input.facets[f].frame.is_some();
-    facets.iter().any(bent) || (facets.len() > 1 && case.options.merge_angle.is_some())
+    facets.iter().any(bent) || (facets.len() > 1 && case.merges_near())
+}
+
+/// Whether the facets of a group are on one plane, exactly or to the stated precision, unless they were merged by
+/// angles; reports it if they are not. (What a single facet is like is up to the input.)
+fn is_one_polygon(case: &Case, facets: &[usize], findings: &mut Findings) -> bool {
+    if facets.len() == 1 || case.options.precision <= 0.0 || planes::planes(case, facets).len() <= 1
+    {
+        return true;
+    }
+    let is_flat = flatness::is_flat(case, facets);
+    findings.counts.groups_flat_to_precision += usize::from(is_flat);
+    let is_right = is_flat || case.options.merge_angle.is_some();
+    if !is_right {
+        findings.report(Violation::MergedNotFlat {
+            facets: facets.to_vec(),
+            distance: flatness::bulge(case, facets),
+        });
+    }
+    is_right
 }
 
 /// Fewer groups are one thread's work.

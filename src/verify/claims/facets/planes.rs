@@ -13,6 +13,10 @@ pub(crate) fn is_on_planes(case: &Case, planes: &[([VertexId; 3], f64)], v: Vert
 
 /// The planes of the facets with their tolerances: one if all are exactly on one.
 pub(crate) fn planes(case: &Case, facets: &[usize]) -> Vec<([VertexId; 3], f64)> {
+    let near = match facets.len() {
+        1 => 0.0,
+        _ => 4.0 * case.options.precision,
+    };
     let facets = || facets.iter().map(|&f| &case.input.facets[f]);
     let mut planes = facets().filter_map(|facet| {
         // The bulge is rounded, and so is what is computed with it.
@@ -20,6 +24,8 @@ pub(crate) fn planes(case: &Case, facets: &[usize]) -> Vec<([VertexId; 3], f64)>
             true => case.tolerance,
             false => facet.bulge + case.tolerance.max(case.rounding),
         };
+        // Where facets are merged to a precision, what is inside one of them is so far from its plane at most.
+        let tolerance = tolerance.max(near);
         facet.frame.map(|frame| (frame, tolerance))
     });
     let Some(first) = planes.next() else {

@@ -4,8 +4,12 @@
 //! is assumed is that all coordinates have been through one rounding, the coarsest that explains all of them, and that
 //! nobody rounds to what short numbers are: 0, 0.5 and 12 are meant.
 
+use serde::{Serialize, Serializer};
+use std::fmt;
+use std::str::FromStr;
+
 /// How far coordinates may be from what was meant.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
 pub struct Precision {
     /// The distance δ in the unit of the coordinates, along each axis; 0 if they are exact.
     pub delta: f64,
@@ -14,10 +18,13 @@ pub struct Precision {
 }
 
 /// The rounding that explains all coordinates.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Rounding {
-    /// None: all are short decimals, or small multiples of one power of two.
+    /// None: all are short decimals, or small multiples of one power of two; or the coordinates are to be exact.
+    #[default]
     None,
+    /// The user says so.
+    Given,
     /// All are values of float32: half a unit of it at the largest.
     Float32,
     /// So many significant digits are enough for all: half a unit of the last at the largest.
@@ -26,6 +33,93 @@ pub enum Rounding {
     Decimals(u32),
     /// That of doubles: 8 units at the largest, for what was computed in doubles.
     Double,
+}
+
+/// In a word or two: `none`, `given`, `float32`, `6 digits`, `3 decimals`, `double`.
+impl Serialize for Rounding {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Rounding::None => serializer.serialize_str("none"),
+            Rounding::Given => serializer.serialize_str("given"),
+            Rounding::Float32 => serializer.serialize_str("float32"),
+            Rounding::Digits(n) => serializer.collect_str(&format_args!("{n} digits")),
+            Rounding::Decimals(n) => serializer.collect_str(&format_args!("{n} decimals")),
+            Rounding::Double => serializer.serialize_str("double"),
+        }
+    }
+}
+
+impl fmt::Display for Rounding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Rounding::None => f.write_str("the coordinates are exact"),
+            Rounding::Given => f.write_str("as given"),
+            Rounding::Float32 => f.write_str("half a unit of float32 at the largest coordinate"),
+            Rounding::Digits(n) => write!(
+                f,
+                "half a unit of the last of {n} digits of the largest coordinate"
+            ),
+            Rounding::Decimals(n) => write!(f, "half a unit of the last of {n} decimals"),
+            Rounding::Double => f.write_str("8 units of double at the largest coordinate"),
+        }
+    }
+}
+
+impl fmt::Display for Precision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:e} ({})", self.delta, self.rounding)
+    }
+}
+
+/// Which precision an input has.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub enum PrecisionChoice {
+    /// The one that its coordinates tell ([`Precision::of`]).
+    #[default]
+    Auto,
+    /// All coordinates are meant as they are.
+    Exact,
+    /// This distance in the unit of the coordinates.
+    Given(f64),
+}
+
+impl PrecisionChoice {
+    /// The precision of points. Linear time.
+    pub fn of(self, points: &[[f64; 3]]) -> Precision {
+        match self {
+            PrecisionChoice::Auto => Precision::of(points),
+            PrecisionChoice::Exact => Precision::default(),
+            PrecisionChoice::Given(delta) => Precision {
+                delta,
+                rounding: Rounding::Given,
+            },
+        }
+    }
+}
+
+impl fmt::Display for PrecisionChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PrecisionChoice::Auto => f.write_str("auto"),
+            PrecisionChoice::Exact => f.write_str("exact"),
+            PrecisionChoice::Given(delta) => write!(f, "{delta:e}"),
+        }
+    }
+}
+
+impl FromStr for PrecisionChoice {
+    type Err = &'static str;
+
+    fn from_str(word: &str) -> Result<PrecisionChoice, &'static str> {
+        match word {
+            "auto" => Ok(PrecisionChoice::Auto),
+            "exact" => Ok(PrecisionChoice::Exact),
+            _ => match word.parse::<f64>() {
+                Ok(delta) if delta.is_finite() && delta >= 0.0 => Ok(PrecisionChoice::Given(delta)),
+                _ => Err("none of auto, exact, and a distance from 0 on"),
+            },
+        }
+    }
 }
 
 /// From so many significant digits on they count as rounded.
@@ -69,9 +163,15 @@ impl Precision {
         let size = (0..3).map(|k| extent(finite.clone().map(|p| p[k])));
         let size = size.fold(0.0, f64::max);
         let exponent = exponent_of(largest);
-        // With fixed decimals, the largest coordinate has about as many digits as there are decimals and digits before
-        // them.
-        let fixed = decimals >= LEAST_DECIMALS && exponent + 1 + decimals <= digits.max(0) + 2;
+        // Of numbers with so many decimals nearly all have all of them, of whatever size they are; of numbers with so
+        // many digits nearly all have these.
+        let (mut of_digits, mut of_decimals) = (0, 0);
+        for x in coordinates() {
+            let (n, d) = shortest(x);
+            of_digits += usize::from(n == digits);
+            of_decimals += usize::from(d == decimals);
+        }
+        let fixed = decimals >= LEAST_DECIMALS && of_decimals >= of_digits;
         let (unit, rounding) = match fixed || digits < LEAST_DIGITS {
             true => (-decimals, Rounding::Decimals(decimals.unsigned_abs())),
             false => (
@@ -165,6 +265,10 @@ mod tests {
         );
         let four = helix(3000.0, |x| printed(format!("{x:.4}")));
         assert_eq!(four.rounding, Rounding::Decimals(4));
+        // Small numbers have more decimals then.
+        let six = helix(0.2, |x| printed(format!("{x:.5e}")));
+        assert_eq!(six.rounding, Rounding::Digits(6));
+        assert!((0.49e-6..0.51e-6).contains(&six.delta));
         let double = helix(3.0, |x| x);
         assert_eq!(double.rounding, Rounding::Double);
         assert_eq!(double.delta, 8.0 * 2f64.powi(-51));
