@@ -24,7 +24,7 @@ pub use call::{MeshOptions, Meshed, SteinerChoice, mesh, mesh_with_progress};
 pub use mesh_error::MeshError;
 
 use crate::clock::TaskSeconds;
-use crate::delaunay::{delaunay, delaunay_by};
+use crate::delaunay::{Delaunay, delaunay, delaunay_by};
 use crate::error::{DeletionRefused, Failure};
 use crate::exchange::ExportedMesh;
 use crate::exchange::Plc;
@@ -33,8 +33,8 @@ use crate::plc::{Complex, PlcError};
 use crate::predicate::{DoublePoints, PointStore};
 use crate::recover::flatten::flatten;
 use crate::recover::flips::{FlipObserver, FlipRegion};
-use crate::recover::polygons::{FlipOrder, PolygonCounts, PolygonInsertion};
-use crate::recover::segments::{GoOn, recover_segments};
+use crate::recover::polygons::{FlipOrder, PolygonCounts, PolygonInsertion, try_whole};
+use crate::recover::segments::{GoOn, Subsegments, recover_segments};
 use crate::recover::workspace::{ConstrainedMesh, EdgeProtectedPlc};
 use crate::report::{Phase, Report};
 use crate::update::PolygonDeletion;
@@ -169,6 +169,14 @@ impl Cdt {
         report.steiner_not_doubles = points.count_not_double();
         let (mut subsegments, mut incidence) = recovered?;
         report.steiner_points_on_segment = subsegments.count_exact(&points);
+        let try_whole = |points: &DoublePoints, delaunay: &Delaunay, (s, i): (&_, &_), pieces| {
+            let plc = EdgeProtectedPlc {
+                points: points.clone(),
+                subsegments: Subsegments::clone(s),
+                pieces,
+            };
+            try_whole(plc, &delaunay.mesh, i, must_enclose)
+        };
         let pieces = report.time(Phase::Flattening, |report| {
             flatten(
                 &complex,
@@ -176,7 +184,7 @@ impl Cdt {
                 &mut delaunay,
                 &mut subsegments,
                 &mut incidence,
-                &mut report.flattening,
+                (&try_whole, &mut report.flattening),
                 go_on,
             )
         })?;
@@ -368,6 +376,10 @@ impl Cdt {
             let facets = polygon.facets.clone();
             return Err(DeletionRefused::NotInserted { facets });
         }
+        let polygons = &self.plc.pieces.complex.polygons;
+        let is_flat = polygons[self.plc.pieces.of(f)].iter().all(|p| p.flat);
+        // What is flat only to rounding may not fit again.
+        let before = (!is_flat).then(|| self.cdt.clone());
         let mut counts = DeletionCounts::default();
         let mut refused = None;
         for piece in self.plc.pieces.of(f) {
@@ -385,6 +397,10 @@ impl Cdt {
         let Some(reason) = refused else {
             return Ok(counts);
         };
+        if let Some(before) = before {
+            self.cdt = before;
+            return Err(reason);
+        }
         // What has been deleted of it can be inserted, as it was.
         self.insert_polygon(
             f,

@@ -5,7 +5,7 @@
 //!
 //! - [`tables`], [`method`], [`subpolygons`]: what the others share.
 //! - [`segments`]: Steiner points until every segment is a chain of edges.
-//! - [`flatten`]: polygons that are flat only to rounding, in exactly flat pieces.
+//! - [`flatten`]: polygons that are flat only to rounding, in pieces that are exactly flat, or fit as they are.
 //! - [`region`]: which parts of a polygon are missing, and the tetrahedra that it cuts there.
 //! - [`retriangulate`]: new tetrahedra for a region, by cavities or by gift wrapping.
 //! - [`flips`]: new tetrahedra for a region, by flips.

@@ -9,6 +9,7 @@ use crate::mesh::{Corner, TetId, VertexId};
 use crate::predicate::PointStore;
 use crate::recover::flips::{Blocked, FlipCounts, Kept, flip_delete};
 use crate::recover::method::FlipOrder;
+use crate::recover::polygons::delete_whole;
 use crate::recover::region::Sides;
 use crate::recover::subpolygons::{Face, face};
 use crate::recover::workspace::{ConstrainedMesh, EdgeProtectedPlc};
@@ -74,6 +75,12 @@ impl<'a, P: PointStore> PolygonDeletion<'a, P> {
             // It may have been inserted from behind.
             result = self.by_flips(f, &sides.reversed(), &boundary, order);
         }
+        if !sides.flat
+            && result.is_err()
+            && let Some(counts) = self.by_repairs(f, &boundary)
+        {
+            result = Ok(counts);
+        }
         let flat = sides.flat;
         self.cdt.scratch.sides = sides.into_table();
         result.map_err(|blocked| {
@@ -119,6 +126,24 @@ impl<'a, P: PointStore> PolygonDeletion<'a, P> {
             removed: deleted.before.len() as u64,
             created: deleted.tets.len() as u64,
             flips: deleted.counts,
+        })
+    }
+
+    /// Deletes a polygon that is flat only to rounding by flips of faces that are not locally Delaunay, in any order.
+    fn by_repairs(&mut self, f: usize, boundary: &[[VertexId; 2]]) -> Option<DeletionCounts> {
+        let corners = self.faces(f, boundary);
+        let (repairs, [removed, created]) = delete_whole(self.plc, self.cdt, &corners)?;
+        let flips = FlipCounts {
+            two_three: repairs.two_three,
+            three_two: repairs.three_two,
+            four_four: repairs.four_four,
+            ..FlipCounts::default()
+        };
+        Some(DeletionCounts {
+            subpolygons: corners.len() as u64,
+            removed,
+            created,
+            flips,
         })
     }
 

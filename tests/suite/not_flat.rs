@@ -56,7 +56,7 @@ fn run(plc: &Plc, insertion: Insertion, keep_hull: bool) -> Result<FlatteningCou
 
 /// Whether a family encloses something.
 fn is_closed(name: &str) -> bool {
-    ["prism", "box", "bar", "boxes"].contains(&name)
+    ["prism", "box", "bar", "boxes", "flange", "boss"].contains(&name)
 }
 
 /// Runs all families; returns a line for each failure.

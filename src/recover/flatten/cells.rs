@@ -28,6 +28,28 @@ impl Cell {
         vertices
     }
 
+    /// The cell as a polygon, a part of f that is flat only to rounding; `None` if all its vertices are collinear in
+    /// projection.
+    pub(super) fn whole<P: PointStore>(
+        &self,
+        points: &P,
+        plane: &Plane<P>,
+        f: &Polygon,
+    ) -> Option<Polygon> {
+        let vertices = self.vertices();
+        let frame = frame(points, plane, &vertices)?;
+        let mut edges = self.edges.clone();
+        edges.sort_unstable();
+        Some(Polygon {
+            edges,
+            vertices,
+            frame,
+            flat: false,
+            facets: f.facets.clone(),
+            marker: f.marker,
+        })
+    }
+
     /// The cell as a polygon, a part of f, if it is exactly flat.
     pub(super) fn piece<P: PointStore>(
         mut self,

@@ -32,8 +32,17 @@ pub(super) struct Cut {
     pub(super) pieces: Vec<Polygon>,
     /// The cells that are not flat.
     pub(super) bad: Vec<Cell>,
+    /// The same as polygons, those that can be.
+    pub(super) whole: Vec<Polygon>,
     /// How often a choice between crossing edges was made.
     pub(super) choices: usize,
+}
+
+impl Cut {
+    /// Whether all cells can be polygons.
+    pub(super) fn is_in_pieces(&self) -> bool {
+        self.whole.len() == self.bad.len()
+    }
 }
 
 /// Cuts polygon f, whose figure is given.
@@ -57,7 +66,10 @@ pub(super) fn cut<P: PointStore>(
         for cell in cells(figure, &accepted) {
             match cell.piece(points, &figure.plane, f) {
                 Ok(piece) => result.pieces.push(piece),
-                Err(cell) => result.bad.push(cell),
+                Err(cell) => {
+                    result.whole.extend(cell.whole(points, &figure.plane, f));
+                    result.bad.push(cell);
+                }
             }
         }
         let done = result.bad.is_empty() || result.choices == 0;

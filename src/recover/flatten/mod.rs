@@ -1,23 +1,23 @@
 //! Polygons that are flat only to rounding (paper, end of §3.1 and of §3.2), dealt with before any polygon is inserted.
 //!
 //! Polygons of four or more vertices in floating point, and polygons with rounded Steiner points on their boundaries,
-//! are not exactly flat. Each is cut into exactly flat pieces along edges that the Delaunay tetrahedralization has
-//! (`cut.rs`). Where edges are missing the polygon gets a Steiner point (`steiner.rs`), and is cut again, until all
-//! pieces of all polygons are flat. As this happens in the Delaunay tetrahedralization, no mesh of a polygon is ever
-//! taken back.
+//! are not exactly flat. Each is cut along edges that the Delaunay tetrahedralization has (`cut.rs`). Cells that are
+//! exactly flat are pieces. Where edges are missing, cells remain that are not: they are to be inserted as they are,
+//! whole, as in the paper. Whether they can be is found out by a trial, the insertion of all pieces into a copy. Cells
+//! that are refused get a Steiner point (`steiner.rs`), their polygons are cut again, and tried again, until all pieces
+//! fit. As this happens in the Delaunay tetrahedralization, no mesh of a polygon is ever taken back.
 //!
-//! Then every insertion is one of an exactly flat polygon into an edge-protected PLC, and what is proved of those
-//! holds: there is one CDT, and cavities, gift wrapping and exactly ordered flips all find it. It may have shims, which
-//! are repaired on output (`shims`).
+//! Insertions of exactly flat pieces into an edge-protected PLC are as proved: there is one CDT, and cavities, gift
+//! wrapping and exactly ordered flips all find it. Pieces that are not flat are inserted before them, by flips and a
+//! look at the result (`recover::polygons`). The CDT may have shims, which are repaired on output (`shims`).
 //!
 //! After each round of Steiner points only polygons with both ends of an edge that has vanished are looked at, and
 //! those that could not be cut.
 //!
 //! # End
 //! Refinement of nearly flat polygons ends in practice for the same reasons as that of segments; it is bounded by
-//! [`MOST_ROUNDS`] and [`MOST_POINTS`]. Beyond those nothing is inserted, and polygons that cannot be cut are left to
-//! the insertion of polygons as they are, which treats their vertices as if they were on one plane, and may refuse
-//! them.
+//! [`MOST_ROUNDS`] and [`MOST_POINTS`], and trials by [`MOST_TRIALS`] and [`MOST_TRIED`]. Beyond those nothing is
+//! inserted, and cells that are not flat are left to the insertion of polygons, which may refuse them.
 
 mod cells;
 mod counts;
@@ -29,7 +29,9 @@ mod pieces;
 mod plane;
 mod steiner;
 
-pub use counts::{FlatteningCounts, ShimCounts};
+pub(crate) use counts::Refusal;
+pub use counts::{FlatteningCounts, RefusedCounts, ShimCounts};
+pub(crate) use pieces::Fit;
 pub use pieces::Pieces;
 pub(crate) use plane::Plane;
 
@@ -39,6 +41,7 @@ use crate::mesh::{Groups, Incidence, TetMesh, VertexId};
 use crate::plc::{Complex, Polygon};
 use crate::predicate::{GrowingStore, PointStore};
 use crate::recover::segments::{GoOn, Request, Subsegments, add_steiner_points};
+use cells::Cell;
 use cut::Cut;
 use figure::Figure;
 use neighbours::Neighbours;
@@ -47,6 +50,12 @@ use std::sync::Arc;
 
 /// How often Steiner points are inserted and polygons are cut again.
 pub const MOST_ROUNDS: usize = 200;
+
+/// How often pieces are tried whole, at most, before Steiner points are inserted into all that are not flat.
+pub const MOST_TRIALS: usize = 30;
+
+/// How many pieces are inserted in all those trials together, unless one trial has more.
+pub const MOST_TRIED: usize = 50_000;
 
 /// How many Steiner points may be inserted, besides a quarter of the number of vertices.
 pub const MOST_POINTS: usize = 1000;
@@ -58,6 +67,10 @@ struct State<'a> {
     cuts: Vec<Option<Box<Cut>>>,
     /// The polygons with cells that are not flat, ascending.
     bad: Vec<usize>,
+    /// Why polygons got Steiner points: a piece could not be inserted whole.
+    refused: Vec<Option<Refusal>>,
+    /// How the pieces fit, if all have been inserted into a copy.
+    fits: Vec<Fit>,
     inner: Vec<Vec<VertexId>>,
     neighbours: Neighbours,
     /// The polygons of each vertex, once that is of interest.
@@ -100,19 +113,27 @@ impl PolygonsAt {
     }
 }
 
-/// Cuts all polygons that are not flat, inserting Steiner points where that is impossible. If it would take too many of
-/// those, none is inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]). `go_on` is
-/// told in each round how many Steiner points there are.
+/// How pieces fit into the mesh, or which of them, of those that are not flat, cannot be inserted whole, and why.
+pub(crate) type Tried = Result<Vec<Fit>, Vec<(usize, Refusal)>>;
+
+/// Who tries, given the Delaunay tetrahedralization of some points with the given subsegments.
+pub(crate) type Trial<'a, P> =
+    &'a dyn Fn(&P, &Delaunay, (&Subsegments, &Incidence), Pieces) -> Tried;
+
+/// Cuts all polygons that are not flat as far as the edges of the mesh do; the pieces are flat, or can be inserted
+/// whole, or Steiner points are inserted where that is impossible. If it would take too many of those, none is
+/// inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]). `go_on` is told in each
+/// round how many Steiner points there are.
 ///
 /// # Errors
 /// [`Failure::Stopped`] if `go_on` says so.
-pub fn flatten<P: GrowingStore>(
+pub(crate) fn flatten<P: GrowingStore>(
     complex: &Arc<Complex>,
     points: &mut P,
     delaunay: &mut Delaunay,
     subsegments: &mut Subsegments,
     incidence: &mut Incidence,
-    counts: &mut FlatteningCounts,
+    (trial, counts): (Trial<P>, &mut FlatteningCounts),
     go_on: &GoOn<'_>,
 ) -> Result<Pieces, Failure> {
     let n = complex.polygons.len();
@@ -120,13 +141,15 @@ pub fn flatten<P: GrowingStore>(
         complex,
         cuts: vec![None; n],
         bad: Vec::new(),
+        refused: vec![None; n],
+        fits: Vec::new(),
         inner: vec![Vec::new(); n],
         neighbours: Neighbours::default(),
         polygons_at: None,
         boundary: Vec::new(),
         vertices: Vec::new(),
     };
-    let mut requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), 0..n);
+    state.cut_all(points, &delaunay.mesh, (subsegments, incidence), 0..n);
     if state.bad.is_empty() {
         return Ok(state.collect(counts));
     }
@@ -139,6 +162,17 @@ pub fn flatten<P: GrowingStore>(
         if !go_on(points.len() - subsegments.first_steiner()) {
             return Err(Failure::Stopped);
         }
+        let most_trials = (MOST_TRIED / state.count_pieces()).clamp(1, MOST_TRIALS);
+        let refused = if refined.trials < most_trials {
+            refined.trials += 1;
+            state.try_whole(|pieces| trial(points, delaunay, (subsegments, incidence), pieces))
+        } else {
+            state.all_bad()
+        };
+        if refused.is_empty() {
+            break;
+        }
+        let requests = state.requests(points, subsegments, &refused);
         let positions: Vec<Request> = requests.iter().map(|r| r.1).collect();
         let added = add_steiner_points(&positions, points, delaunay, subsegments, incidence);
         let added = added.ok().filter(|added| {
@@ -167,23 +201,22 @@ pub fn flatten<P: GrowingStore>(
         }
         state.neighbours.forget(&added.changes.touched);
         let again = state.bad_or_at(&added.changes.vanished).into_iter();
-        requests = state.cut_all(points, &delaunay.mesh, (subsegments, incidence), again);
+        state.cut_all(points, &delaunay.mesh, (subsegments, incidence), again);
     }
     *counts = refined;
     Ok(state.collect(counts))
 }
 
 impl State<'_> {
-    /// Cuts those of the given polygons, in ascending order, that are not flat, and returns the Steiner points that
-    /// they want. All polygons that have cells that are not flat must be among them.
+    /// Cuts those of the given polygons, in ascending order, that are not flat. All polygons that have cells that are
+    /// not flat must be among them.
     fn cut_all<P: PointStore>(
         &mut self,
         points: &P,
         mesh: &TetMesh,
         (subsegments, incidence): (&Subsegments, &Incidence),
         polygons: impl Iterator<Item = usize>,
-    ) -> Vec<(usize, Request)> {
-        let mut requests = Vec::new();
+    ) {
         self.bad.clear();
         for f in polygons {
             let polygon = &self.complex.polygons[f];
@@ -197,12 +230,39 @@ impl State<'_> {
             let cut = cut::cut(&figure, polygon, around, subsegments);
             if !cut.bad.is_empty() {
                 self.bad.push(f);
-                let wanted = wanted(&figure, polygon, &cut);
-                requests.extend(wanted.into_iter().map(|request| (f, request)));
             }
             self.cuts[f] = Some(Box::new(cut));
         }
+    }
+
+    /// The Steiner points that cells of polygons want, the polygons in ascending order.
+    fn requests<P: PointStore>(
+        &mut self,
+        points: &P,
+        subsegments: &Subsegments,
+        refused: &[(usize, usize)],
+    ) -> Vec<(usize, Request)> {
+        let mut requests = Vec::new();
+        for of_polygon in refused.chunk_by(|s, t| s.0 == t.0) {
+            let f = of_polygon[0].0;
+            self.look_at(f, subsegments);
+            let polygon = &self.complex.polygons[f];
+            let figure = Figure::new(points, polygon, (&self.boundary, &self.vertices));
+            let cut = self.cuts[f].as_ref();
+            let bad = &cut.expect("its cells have been refused").bad;
+            let cells = of_polygon.iter().map(|&(_, cell)| &bad[cell]);
+            let wanted = wanted(&figure, polygon, cells);
+            requests.extend(wanted.into_iter().map(|request| (f, request)));
+        }
         requests
+    }
+
+    /// All cells that are not flat, of all polygons.
+    fn all_bad(&self) -> Vec<(usize, usize)> {
+        let cells = |f: usize| self.cuts[f].as_ref().map_or(0, |cut| cut.bad.len());
+        let bad = self.bad.iter();
+        bad.flat_map(|&f| (0..cells(f)).map(move |cell| (f, cell)))
+            .collect()
     }
 
     /// Finds the boundary of polygon f and all its vertices, sorted.
@@ -258,31 +318,80 @@ impl State<'_> {
         again
     }
 
+    /// Tries to insert all pieces. The cells that are refused, with their polygons, ascending.
+    fn try_whole(&mut self, trial: impl FnOnce(Pieces) -> Tried) -> Vec<(usize, usize)> {
+        let pieces = self.pieces();
+        let found = match trial(pieces.clone()) {
+            Ok(fits) => {
+                self.fits = fits;
+                return Vec::new();
+            }
+            Err(found) => found,
+        };
+        let mut refused = Vec::with_capacity(found.len());
+        for (piece, why) in found {
+            let f = pieces.polygon_of(piece);
+            self.refused[f].get_or_insert(why);
+            let cut = self.cuts[f].as_ref();
+            let cut = cut.expect("other polygons are flat");
+            if cut.is_in_pieces() {
+                refused.push((f, piece - pieces.of(f).start - cut.pieces.len()));
+            } else {
+                refused.extend((0..cut.bad.len()).map(|cell| (f, cell)));
+            }
+        }
+        refused.sort_unstable();
+        refused
+    }
+
     fn collect(self, counts: &mut FlatteningCounts) -> Pieces {
+        for (f, cut) in self.cuts.iter().enumerate() {
+            let Some(cut) = cut else { continue };
+            counts.not_flat += 1;
+            if let Some(why) = self.refused[f] {
+                counts.refused.add(why);
+            }
+            if !cut.is_in_pieces() || !cut.bad.is_empty() && self.fits.is_empty() {
+                counts.left_whole += 1;
+                continue;
+            }
+            counts.pieces += cut.pieces.len() as u64;
+            counts.choices += cut.choices as u64;
+            counts.whole += u64::from(!cut.whole.is_empty());
+            counts.whole_pieces += cut.whole.len() as u64;
+        }
+        self.pieces()
+    }
+
+    /// How many pieces there are, at least.
+    fn count_pieces(&self) -> usize {
+        let cuts = self.cuts.iter().map(|cut| match cut {
+            Some(cut) => cut.pieces.len() + cut.whole.len(),
+            None => 1,
+        });
+        cuts.sum::<usize>().max(1)
+    }
+
+    /// All polygons in pieces; those are left as they are that have cells that can be no polygons.
+    fn pieces(&self) -> Pieces {
         let n = self.cuts.len();
+        let inner = self.inner.clone();
         if self.cuts.iter().all(Option::is_none) {
             return Pieces {
-                inner: self.inner,
+                inner,
                 ..Pieces::whole(Arc::clone(self.complex))
             };
         }
         let mut polygons = Vec::with_capacity(n);
         let mut first = Vec::with_capacity(n + 1);
         let was_cut = self.cuts.iter().map(Option::is_some).collect();
-        for (polygon, cut) in self.complex.polygons.iter().zip(self.cuts) {
+        for (polygon, cut) in self.complex.polygons.iter().zip(&self.cuts) {
             first.push(polygons.len());
-            counts.not_flat += u64::from(cut.is_some());
             match cut {
-                None => polygons.push(polygon.clone()),
-                Some(cut) if !cut.bad.is_empty() => {
-                    counts.left_whole += 1;
-                    polygons.push(polygon.clone());
+                Some(cut) if cut.is_in_pieces() => {
+                    polygons.extend(cut.pieces.iter().chain(&cut.whole).cloned());
                 }
-                Some(cut) => {
-                    counts.pieces += cut.pieces.len() as u64;
-                    counts.choices += cut.choices as u64;
-                    polygons.extend(cut.pieces);
-                }
+                _ => polygons.push(polygon.clone()),
             }
         }
         first.push(polygons.len());
@@ -295,7 +404,8 @@ impl State<'_> {
             }),
             first,
             was_cut,
-            inner: self.inner,
+            inner,
+            fits: self.fits.clone(),
         }
     }
 }
@@ -310,11 +420,15 @@ fn is_flat<P: PointStore>(points: &P, polygon: &Polygon, vertices: &[VertexId]) 
     polygon.flat && (vertices.len() == own.len() || added.all(on_plane))
 }
 
-/// The Steiner points that the cells of a polygon want, without those that come close to others.
-fn wanted<P: PointStore>(figure: &Figure<P>, polygon: &Polygon, cut: &Cut) -> Vec<Request> {
+/// The Steiner points that cells of a polygon want, without those that come close to others.
+fn wanted<'a, P: PointStore>(
+    figure: &Figure<P>,
+    polygon: &Polygon,
+    cells: impl Iterator<Item = &'a Cell>,
+) -> Vec<Request> {
     let (points, plane, boundary) = (figure.points, &figure.plane, figure.boundary);
     let mut taken: Vec<(Request, f64)> = Vec::new();
-    for cell in &cut.bad {
+    for cell in cells {
         let Some((request, radius)) =
             steiner::for_cell(points, plane, cell, boundary, polygon.frame)
         else {

@@ -1,11 +1,23 @@
-//! The polygons of a complex in exactly flat pieces: which pieces are those of a polygon, and whose a piece is.
+//! The polygons of a complex in pieces: which pieces are those of a polygon, and whose a piece is.
 
 use crate::mesh::VertexId;
 use crate::plc::Complex;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The polygons of a complex in exactly flat pieces.
+/// On which sides of a piece that is flat only to rounding the mesh is constrained Delaunay when it is inserted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) enum Fit {
+    /// On both.
+    #[default]
+    Both,
+    /// On its right side; the other one is outside of the domain.
+    Right,
+    /// On its left side.
+    Left,
+}
+
+/// The polygons of a complex in pieces that are exactly flat, or can be inserted as they are.
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {
     /// The segments of the complex, and all pieces: polygons that were flat as they are, and the pieces of the others,
@@ -17,6 +29,8 @@ pub struct Pieces {
     pub(crate) was_cut: Vec<bool>,
     /// Steiner points inside each polygon.
     pub(crate) inner: Vec<Vec<VertexId>>,
+    /// How the pieces fit; empty if all do on both sides.
+    pub(crate) fits: Vec<Fit>,
 }
 
 impl Pieces {
@@ -28,6 +42,7 @@ impl Pieces {
             first: (0..=n).collect(),
             was_cut: vec![false; n],
             inner: vec![Vec::new(); n],
+            fits: Vec::new(),
         }
     }
 
@@ -54,6 +69,11 @@ impl Pieces {
     /// The polygons that had to be cut.
     pub fn cut_polygons(&self) -> impl Iterator<Item = usize> {
         (0..self.was_cut.len()).filter(|&f| self.was_cut[f])
+    }
+
+    /// How piece `p` fits.
+    pub(crate) fn fit(&self, p: usize) -> Fit {
+        self.fits.get(p).copied().unwrap_or_default()
     }
 
     /// Steiner points inside polygon f.

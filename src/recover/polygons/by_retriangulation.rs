@@ -68,7 +68,12 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         let any = !subpolygons.is_empty();
         let is_subpolygon = any.then_some(&is_subpolygon as &dyn Fn(Face) -> bool);
         let result = cavity::retriangulate(mesh, sides, region, is_subpolygon, &mut scratch.cavity);
-        let fits = |r: &Retriangulation| may_displace || r.displaced.is_empty();
+        // A polygon that is flat only to rounding may not fit again.
+        let pieces = &self.plc.pieces.complex.polygons;
+        let is_flat = |t: &Face| subpolygons.get(t).is_none_or(|&g| pieces[g as usize].flat);
+        let fits = |r: &Retriangulation| {
+            r.displaced.is_empty() || may_displace && r.displaced.iter().all(is_flat)
+        };
         result.ok().filter(fits)
     }
 

@@ -38,4 +38,17 @@ pub struct PolygonCounts {
     pub shims: u64,
     /// The flips.
     pub flips: FlipCounts,
+    /// Flips of faces that were not locally Delaunay next to polygons that were inserted whole.
+    pub repairs: RepairCounts,
+}
+
+/// Flips that repair faces that are not locally Delaunay.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Debug, Serialize)]
+pub struct RepairCounts {
+    /// 2-3 flips.
+    pub two_three: u64,
+    /// 3-2 flips.
+    pub three_two: u64,
+    /// 4-4 flips.
+    pub four_four: u64,
 }

@@ -49,7 +49,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
     }
 
     /// Whether a triangle is gone from the mesh or is locally Delaunay in it.
-    fn is_gone_or_locally_delaunay(&self, [a, b, c]: Face) -> bool {
+    pub(super) fn is_gone_or_locally_delaunay(&self, [a, b, c]: Face) -> bool {
         let mesh = &self.cdt.mesh;
         let Some(t) = self.cdt.incidence.tet_at_edge(mesh, a, b) else {
             return true;
@@ -66,7 +66,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
 
 /// Whether triangles have `boundary` as their boundary, and every other edge once in each direction. They are seen from
 /// the left, from where the polygon lies to the left of its boundary.
-fn covers_simply(faces: &[[VertexId; 3]], boundary: &[[VertexId; 2]]) -> bool {
+pub(super) fn covers_simply(faces: &[[VertexId; 3]], boundary: &[[VertexId; 2]]) -> bool {
     let mut open: FxHashSet<[VertexId; 2]> = FxHashSet::default();
     let edges = faces.iter().flat_map(|&[a, b, c]| [[b, a], [a, c], [c, b]]);
     let border = boundary.iter().map(|&[a, b]| [b, a]);

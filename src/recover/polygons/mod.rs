@@ -6,9 +6,13 @@ mod counts;
 mod cover;
 mod flip_result;
 mod intersections;
+mod trial;
+mod whole;
 
 pub use super::method::{FlipOrder, Insertion, NumberType};
-pub use counts::PolygonCounts;
+pub use counts::{PolygonCounts, RepairCounts};
+pub(crate) use trial::try_whole;
+pub(crate) use whole::delete_whole;
 
 use super::flips::{FlipObserver, FlipRegion};
 use super::region::Sides;
@@ -19,6 +23,7 @@ use crate::error::{Failure, GaveUp, InvalidPlc, NotFlatReason};
 use crate::mesh::{TetId, VertexId};
 use crate::plc::Polygon;
 use crate::predicate::PointStore;
+use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
 
 /// Inserts polygons into the tetrahedralization of an edge-protected PLC.
@@ -29,6 +34,10 @@ pub(crate) struct PolygonInsertion<'a, P> {
     counts: PolygonCounts,
     /// The triangles noted for the polygon that is being inserted.
     noted: Vec<Face>,
+    /// Whether a polygon that is flat only to rounding may fit on one side only, as long as it is not known which.
+    may_fit_on_one_side: bool,
+    /// The faces that are not locally Delaunay beside polygons that fit on one side only, with those.
+    tolerated: FxHashMap<Face, u32>,
     /// Flips in numbers of the caller's own, in the place of `insertion`.
     own_flips: Option<&'a dyn FlipRegion<P>>,
     /// Who observes the flips.
@@ -63,6 +72,8 @@ impl<'a, P: PointStore> PolygonInsertion<'a, P> {
             insertion,
             counts: PolygonCounts::default(),
             noted: Vec::new(),
+            may_fit_on_one_side: false,
+            tolerated: FxHashMap::default(),
             own_flips: None,
             observer: None,
         }
@@ -98,6 +109,12 @@ impl<'a, P: PointStore> PolygonInsertion<'a, P> {
     pub fn insert_all(&mut self, progress: &mut dyn FnMut(usize)) -> Result<(), Failure> {
         let n = self.plc.pieces.complex.polygons.len();
         self.cdt.subpolygons.reserve(n);
+        // Those that are flat only to rounding find the mesh as it was when they were tried.
+        let plc = self.plc;
+        let polygons = plc.pieces.complex.polygons.iter();
+        for (f, _) in polygons.enumerate().filter(|(_, polygon)| !polygon.flat) {
+            self.insert(f)?;
+        }
         for f in 0..n {
             self.insert(f)?;
             progress(f + 1);
@@ -137,6 +154,11 @@ impl<'a, P: PointStore> PolygonInsertion<'a, P> {
             return Ok(Vec::new());
         }
         let f = self.begin(f, may_displace);
+        if !f.sides.flat {
+            let f = self.insert_whole(f)?;
+            self.cdt.scratch.sides = f.sides.into_table();
+            return Ok(Vec::new());
+        }
         let displaced = self.insert_missing_regions(&f)?;
         self.cdt.scratch.sides = f.sides.into_table();
         Ok(displaced)

@@ -38,6 +38,18 @@ pub fn search<P: PointStore>(
     boundary: &[[VertexId; 2]],
     is_subpolygon: &dyn Fn(Face) -> bool,
 ) -> Result<Covering, Obstacle> {
+    walk(mesh, incidence, boundary, |start, a, b| {
+        inward(mesh, sides, start, a, b, is_subpolygon)
+    })
+}
+
+/// The search, by what lies inward at a directed edge, around which a tetrahedron is given.
+pub(super) fn walk(
+    mesh: &TetMesh,
+    incidence: &Incidence,
+    boundary: &[[VertexId; 2]],
+    inward: impl Fn(TetId, VertexId, VertexId) -> Result<Inward, Obstacle>,
+) -> Result<Covering, Obstacle> {
     let border: FxHashSet<[VertexId; 2]> = boundary.iter().copied().collect();
     let mut covering = Covering::default();
     // Directed edges to look at, each with a tetrahedron at it, and those already closed by a face or a seed.
@@ -51,7 +63,7 @@ pub fn search<P: PointStore>(
         let start = near
             .or_else(|| incidence.tet_at_edge(mesh, a, b))
             .ok_or(Obstacle::Nothing([a, b]))?;
-        match inward(mesh, sides, start, a, b, is_subpolygon)? {
+        match inward(start, a, b)? {
             Inward::Crossing(t) => covering.seeds.push(t),
             Inward::Face(c, v) => {
                 covering.faces.push(c);
@@ -67,7 +79,8 @@ pub fn search<P: PointStore>(
     Ok(covering)
 }
 
-enum Inward {
+/// What the search meets at an edge.
+pub(super) enum Inward {
     /// The face abv of f, by the corner of the tetrahedron on its left side.
     Face(Corner, VertexId),
     /// A tetrahedron that f cuts.

@@ -3,6 +3,7 @@
 mod as_plc;
 pub mod missing;
 mod sides;
+pub mod surface;
 
 pub use as_plc::region_as_plc;
 pub use sides::{Side, SideTable, Sides, corners, crossing_facets};

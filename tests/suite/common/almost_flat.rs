@@ -150,7 +150,7 @@ impl Model {
 pub type Family = fn(u64) -> Plc;
 
 /// The families, by name.
-pub const FAMILIES: [(&str, Family); 9] = [
+pub const FAMILIES: [(&str, Family); 12] = [
     ("wheel", wheel),
     ("prism", prism),
     ("box", rotated_box),
@@ -160,6 +160,9 @@ pub const FAMILIES: [(&str, Family); 9] = [
     ("sheet", sheet),
     ("window", window),
     ("crossed", crossed),
+    ("flange", flange),
+    ("boss", boss),
+    ("floor", floor),
 ];
 
 /// A regular polygon, and loose vertices above and below.
@@ -354,5 +357,126 @@ pub fn crossed(seed: u64) -> Plc {
         let ends = [m.vertex([-2., -0.3, z]), m.vertex([2., 0.4, z + 0.1])];
         m.plc.segments.push(Segment { ends, marker: 0 });
     }
+    m.plc
+}
+
+/// Corners of a regular polygon around a point.
+fn ring(m: &mut Model, n: usize, [x, y, z]: [f64; 3], radius: f64, turn: f64) -> Vec<VertexId> {
+    let at = |i: usize| turn + std::f64::consts::TAU * i as f64 / n as f64;
+    (0..n)
+        .map(|i| m.vertex([x + radius * at(i).cos(), y + radius * at(i).sin(), z]))
+        .collect()
+}
+
+/// The quadrilaterals between two cycles of as many vertices.
+fn walls(m: &mut Model, low: &[VertexId], high: &[VertexId]) {
+    for i in 0..low.len() {
+        let j = (i + 1) % low.len();
+        m.facet(vec![low[i], low[j], high[j], high[i]]);
+    }
+}
+
+/// A turned part: discs of several radii and heights upon each other, thin ones among them, with regular polygons for
+/// circles. Where two meet there is a ring, which is not on the convex hull.
+pub fn flange(seed: u64) -> Plc {
+    let mut m = Model::new(seed);
+    let n: usize = m.rng.random_range(5..25);
+    let discs: usize = m.rng.random_range(2..6);
+    let (mut below, mut z): (Option<(Vec<VertexId>, bool)>, f64) = (None, 0.0);
+    for i in 0..discs {
+        let is_wide = i % 2 == 1;
+        let radius = if is_wide {
+            m.rng.random_range(1.0..2.0)
+        } else {
+            m.rng.random_range(0.3..0.8)
+        };
+        let (height, turn) = (
+            m.rng.random_range(0.03..0.6),
+            m.rng.random_range(0.0..std::f64::consts::TAU),
+        );
+        let low = ring(&mut m, n, [0., 0., z], radius, turn);
+        let center = m.place.at([0., 0., z]);
+        z += height;
+        let high = ring(&mut m, n, [0., 0., z], radius, turn);
+        walls(&mut m, &low, &high);
+        match below {
+            None => m.facet(low),
+            Some((below, _)) => {
+                let polygons = if is_wide {
+                    vec![low, below]
+                } else {
+                    vec![below, low]
+                };
+                m.plc.facets.push(Facet {
+                    polygons,
+                    holes: vec![center],
+                    ..Facet::default()
+                });
+            }
+        }
+        below = Some((high, is_wide));
+    }
+    m.facet(below.expect("there are discs").0);
+    m.plc
+}
+
+/// A plate with bosses on both faces, not one above the other.
+pub fn boss(seed: u64) -> Plc {
+    let mut m = Model::new(seed);
+    let n: usize = m.rng.random_range(3..12);
+    let thickness = m.rng.random_range(0.1..1.0);
+    let mut square = |z: f64| {
+        let corners = [[-3., -3.], [3., -3.], [3., 3.], [-3., 3.]];
+        corners.map(|[x, y]| m.vertex([x, y, z])).to_vec()
+    };
+    let (low, high) = (square(0.0), square(thickness));
+    walls(&mut m, &low, &high);
+    for (outline, z, up) in [(low, 0.0, -1.0), (high, thickness, 1.0)] {
+        let (mut polygons, mut holes) = (vec![outline], Vec::new());
+        for [x, y] in [[-1.5, -1.5], [1.5, -1.5], [1.5, 1.5], [-1.5, 1.5]] {
+            let (radius, turn) = (m.rng.random_range(0.3..1.3), m.rng.random_range(0.0..6.0));
+            let top = z + up * m.rng.random_range(0.1..1.5);
+            let foot = ring(&mut m, n, [x, y, z], radius, turn);
+            let head = ring(&mut m, n, [x, y, top], radius, turn);
+            walls(&mut m, &foot, &head);
+            m.facet(head);
+            polygons.push(foot);
+            holes.push(m.place.at([x, y, z]));
+        }
+        m.plc.facets.push(Facet {
+            polygons,
+            holes,
+            ..Facet::default()
+        });
+    }
+    m.plc
+}
+
+/// A floor with many vertices inside, on a lattice, on a circle or anywhere, and others on both sides of it.
+pub fn floor(seed: u64) -> Plc {
+    let mut m = Model::new(seed);
+    let corners = [[-3., -3.], [3., -3.], [3., 3.], [-3., 3.]];
+    let outline = corners.map(|[x, y]| m.vertex([x, y, 0.])).to_vec();
+    let mut polygons = vec![outline];
+    match seed % 3 {
+        0 => {
+            for i in 0..16u8 {
+                let [x, y] = [i % 4, i / 4].map(|k| f64::from(k) - 1.5);
+                polygons.push(vec![m.vertex([x, y, 0.])]);
+            }
+        }
+        1 => {
+            let circle = ring(&mut m, 12, [0.; 3], 2.0, 0.3);
+            polygons.extend(circle.into_iter().map(|v| vec![v]));
+        }
+        _ => {
+            for _ in 0..14 {
+                let [x, y] = [(); 2].map(|()| m.rng.random_range(-2.5..2.5));
+                polygons.push(vec![m.vertex([x, y, 0.])]);
+            }
+        }
+    }
+    m.facet_with(polygons);
+    m.loose(20, [2.5, 2.5, 2.0], 0.1);
     m.plc
 }

@@ -284,6 +284,7 @@ mod tests {
             first: vec![0, 2],
             was_cut: vec![true],
             inner: vec![Vec::new()],
+            fits: Vec::new(),
         };
         let triangle = |v: [usize; 3]| face(v.map(VertexId::new));
         let lower = [(triangle([0, 1, 3]), 0), (triangle([1, 2, 3]), 1)];
