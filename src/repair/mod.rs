@@ -11,8 +11,14 @@
 //! | `inside` | vertices and edges exactly inside facets that do not have them |
 //! | `overlaps` | coplanar facets that overlap, or are equal |
 //!
-//! No vertex moves and none is made; all decisions are exact. Where facets cross, or coplanar facets overlap so that
-//! their edges cross where there is no vertex, the input is refused. What comes out has been checked once more.
+//! Two more repairs come before these, only where the coordinates are not exact
+//! ([`Precision`](crate::exchange::Precision)):
+//! `weld` moves vertices that are one to the precision to the first of them, and `divide` makes triangles of facets that
+//! are farther from flat. They are asked for by whoever makes a mesh, and are no part of [`repair`].
+//!
+//! In all the others no vertex moves and none is made; all decisions are exact. Where facets cross, or coplanar facets
+//! overlap so that their edges cross where there is no vertex, the input is refused. What comes out has been checked
+//! once more.
 //!
 //! A facet without area claims nothing: it is dropped with its edges, except the two-vertex polygons in it, which are
 //! segments. Facets that are the same, or overlap, are one where they do, with the smallest marker of theirs that is
