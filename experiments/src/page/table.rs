@@ -156,7 +156,8 @@ pub fn pivot(sheet: &Sheet, caption: &str, pivot: &Pivot) -> Result<String, Shee
     }
     let (caption, file) = (escape(caption), &sheet.file);
     Ok(format!(
-        "<p class=\"caption\">{caption} <a href=\"{file}\"><code>{file}</code></a></p>\n<div class=\"scroll whole\" tabindex=\"0\"><table \
+        "<p class=\"caption\">{caption} <a href=\"{file}\"><code>{file}</code></a></p>\n\
+         <div class=\"scroll whole\" tabindex=\"0\"><table \
          class=\"pivot\">\
          <thead><tr><th scope=\"col\">{down}</th>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>\n"
     ))

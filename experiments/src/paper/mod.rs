@@ -6,6 +6,7 @@
 //! the paper says that they have not been run. Sentences that numbers could contradict are claims. What the text needs
 //! is listed in two tables, `numbers.txt` and `claims.txt`. The same results give the same bytes.
 
+mod figures;
 mod lint;
 mod needed;
 mod number;
@@ -41,6 +42,7 @@ pub fn generate(results: &Path) -> Result<Generated, SheetError> {
     let mut files = BTreeMap::from([("numbers.tex".to_string(), commands)]);
     for (name, text) in needed::files(&sheets)?
         .into_iter()
+        .chain(figures::files(&sheets, results)?)
         .chain(optional::files(&sheets)?)
     {
         let before = files.insert(name, text);
@@ -134,7 +136,8 @@ mod tests {
         let optional = ["rivals", "steiner", "table1"];
         for entry in std::fs::read_dir(results()).expect("results").flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();
-            if name.ends_with(".csv") && !optional.iter().any(|stem| name.starts_with(stem)) {
+            let is_read = name.ends_with(".csv") || name.ends_with(".svg");
+            if is_read && !optional.iter().any(|stem| name.starts_with(stem)) {
                 std::fs::copy(entry.path(), directory.path().join(name)).expect("copied");
             }
         }
@@ -195,12 +198,25 @@ mod tests {
         let optional = [
             "Rivals", "Scaling", "Steiner", "TableOne", "TableTwo", "Failures", "Modes", "Updates",
         ];
-        let needed = ["Machine", "FigNine", "Order", "Case", "Cost", "Growth"];
+        let needed = [
+            "Machine",
+            "FigNine",
+            "Order",
+            "Case",
+            "Cost",
+            "Growth",
+            "Price",
+            "Modelled",
+            "Quadratic",
+        ];
         let (mut files, mut commands) = (0, 0);
         for (path, text) in sources() {
             let tables = words(&text, "\\fitted{").map(|name| format!("{name}.tex"));
             let points = words(&text, "{generated/").filter(|name| name.ends_with(".dat"));
-            for name in tables.chain(points.map(str::to_string)) {
+            let pictures = words(&text, "{generated/")
+                .filter(|name| name.starts_with("picture"))
+                .map(|name| format!("{name}.tex"));
+            for name in tables.chain(points.map(str::to_string)).chain(pictures) {
                 let missing = !generated.files.contains_key(&name);
                 assert!(!missing, "{}: {name}", path.display());
                 files += 1;

@@ -188,7 +188,7 @@ fn cost(sheets: &Sheets) -> Result<String, SheetError> {
 }
 
 /// Arms that are run on all inputs: which rows, and their heads.
-const ARMS: [(&str, &str); 7] = [
+pub const ARMS: [(&str, &str); 7] = [
     ("numbers=f64:paper, ties=arrival, queue=all", "\\fpaper"),
     ("numbers=f64:tetgen, ties=arrival, queue=all", "\\ftetgen"),
     ("numbers=f64:plain, ties=arrival, queue=all", "\\fsixtyfour"),

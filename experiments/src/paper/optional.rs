@@ -12,11 +12,14 @@ use crate::measure::sample::median;
 /// What is asked for, as [`Sheets::wanted`] has it, and what makes a table of it.
 type Optional = (&'static str, fn(&Sheet) -> Result<String, SheetError>);
 
-const TABLES: [Optional; 10] = [
+const TABLES: [Optional; 11] = [
     ("table2", |sheet| of_sheet(sheet, "beside!=", &TABLE_2)),
     ("failures", |sheet| of_sheet(sheet, "", &FAILURES)),
     ("table1", table1),
     ("rivals, distinct(program) > 1", rivals),
+    ("rivals-summary", |sheet| {
+        of_sheet(sheet, "", &RIVALS_SUMMARY)
+    }),
     ("rivals-targets", targets),
     ("fig9-tetgen", fig9_tetgen),
     ("updates", |sheet| of_sheet(sheet, "", &UPDATES)),
@@ -57,6 +60,22 @@ const TABLE_2: [(&str, &str); 9] = [
     ("merging", "(4)"),
     ("queueing", "(5)"),
     ("flipping", "(6)"),
+];
+
+const RIVALS_SUMMARY: [(&str, &str); 13] = [
+    ("kind", "inputs"),
+    ("method", "ours"),
+    ("beside", "beside"),
+    ("common", "common"),
+    ("they_failed", "they fail"),
+    ("sum_ratio", "sum"),
+    ("geometric_mean", "geometric mean"),
+    ("median", "median"),
+    ("worst", "worst"),
+    ("slower_on", "slower"),
+    ("steiner_points", "Steiner points"),
+    ("their_steiner_points", "theirs"),
+    ("more_steiner_on", "more on"),
 ];
 
 const FAILURES: [(&str, &str); 10] = [

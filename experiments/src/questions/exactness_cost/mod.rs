@@ -8,8 +8,8 @@
 //! ([`input`]), with 100 to 100 000 crossing tetrahedra. A row is the insertion of the rectangle by one method.
 //!
 //! **Columns.** [`row::Row`], [`summary::Summary`], [`summary::Target`]; the README of this package has their meaning.
-//! Seconds are wall clock of the insertion alone, in one thread; all methods are timed in turns in one run. A run with
-//! rounded times can fail; its time, which includes the undoing, still counts.
+//! Seconds are processor time of the insertion alone, in one thread; all methods are timed in turns in one run. A run
+//! with rounded times can fail; its time, which includes the undoing, still counts.
 //!
 //! **Expected.** All but rounded flips always succeed; every success is verified and all of one input are the same mesh
 //! ([`row::expectations`]), asserted at the end. The project's targets for times are reported as reached or missed, not

@@ -1,9 +1,9 @@
 //! What the exact order costs alone: filtered times, and the same without one of their parts, in the same copy of the
 //! region, with the same evaluation, in the same queue.
 //!
-//! A part is left out by a type of the library's ([`Ablation`]); nothing else differs, and only the flips are timed, not
-//! the search for the region. The arms take turns in one process; the seconds are its processor time, so that other work
-//! on the machine counts as little as it can; and a ratio is one of the times in one turn. An insertion that an
+//! A part is left out by a type of the library's ([`Ablation`]); nothing else differs, and only the flips are timed,
+//! not the search for the region. The arms take turns in one process; the seconds are its processor time, so that other
+//! work on the machine counts as little as it can; and a ratio is one of the times in one turn. An insertion that an
 //! inexact order cannot finish without a patch, or that ends in other tetrahedra, has no time.
 
 use crate::families::Draw;

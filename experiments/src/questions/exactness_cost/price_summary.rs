@@ -1,4 +1,5 @@
-//! `exactness_cost-price-summary.csv`: medians by input, size class and arm, with intervals; and what the rows must say.
+//! `exactness_cost-price-summary.csv`: medians by input, size class and arm, with intervals; and what the rows must
+//! say.
 
 use super::price::{FILTERED, Row};
 use crate::frame::{Expectation, check_rows};

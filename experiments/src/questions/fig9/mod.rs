@@ -9,7 +9,7 @@
 //! TetGen inserts the same rectangles where it is installed, in its two modes ([`tetgen`]).
 //!
 //! **Columns.** Of `fig9.csv`: [`Row`]; of `fig9-summary.csv`: [`summary::Summary`]; of `fig9-tetgen.csv`:
-//! [`tetgen::Row`]. The README of this package has their meaning. Seconds are wall clock of the polygon insertion
+//! [`tetgen::Row`]. The README of this package has their meaning. Seconds are processor time of the polygon insertion
 //! alone, in one thread.
 //!
 //! **Expected.** Cavities and exact flips always succeed; every success is verified and all of one scene are the same

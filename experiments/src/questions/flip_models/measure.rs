@@ -42,8 +42,8 @@ pub fn measure(model: &Model, arms: &[FlipOrder]) -> Vec<Row> {
     }
 }
 
-/// The Delaunay tetrahedralization with all segments, and what the exact order makes of its regions. As the program does:
-/// rounded Steiner points first; then what is exactly repairable is repaired; and then exact Steiner points.
+/// The Delaunay tetrahedralization with all segments, and what the exact order makes of its regions. As the program
+/// does: rounded Steiner points first; then what is exactly repairable is repaired; and then exact Steiner points.
 fn prepare(plc: &Plc, of_model: &mut OfModel) -> Result<(Cdt, Reference), Failure> {
     let mut plc = Cow::Borrowed(plc);
     let mut result = prepared(&plc, Steiner::Rounded, of_model);

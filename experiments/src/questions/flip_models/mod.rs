@@ -8,8 +8,8 @@
 //!
 //! **Columns.** [`row::Row`], [`row::Summary`]; the README of this package has their meaning.
 //!
-//! **Expected.** The exact orders insert every region without a patch, and cavities end in the same tetrahedra; asserted
-//! at the end. Rounded times may fail.
+//! **Expected.** The exact orders insert every region without a patch, and cavities end in the same tetrahedra;
+//! asserted at the end. Rounded times may fail.
 
 mod measure;
 mod row;
@@ -73,8 +73,8 @@ impl Experiment for FlipModels {
     }
 }
 
-/// The files of a directory that are PLCs with facets, in order of name; the others are named, but for those in no format
-/// that is read.
+/// The files of a directory that are PLCs with facets, in order of name; the others are named, but for those in no
+/// format that is read.
 fn of_directory(directory: &Path, skipped: &mut Vec<String>) -> Result<Vec<Model>, Failed> {
     let mut paths: Vec<_> = std::fs::read_dir(directory)?
         .filter_map(|entry| Some(entry.ok()?.path()))

@@ -16,7 +16,7 @@ struct Stamp {
     commit: String,
 }
 
-/// Reads `flip_order.csv` and `flip_order-failures.csv` of all shards and writes those of the whole.
+/// Reads `flip_order.csv` and `flip_order-failures.csv` of all shards and writes those of the whole, and the plot.
 ///
 /// # Errors
 /// If a file cannot be read or written, or if the shards are of different sources. (That they are all there, and none
@@ -47,11 +47,13 @@ pub fn merge(shards: &[PathBuf], results: &Results) -> Result<Vec<PathBuf>, Fail
     keyed.sort_by_key(|(key, _)| *key);
     let failures: Vec<_> = keyed.iter().map(|(_, row)| (row, stamp)).collect();
     let rows = joined(rows, &plan);
+    let plot = super::precision(&rows)?;
     let rows: Vec<_> = rows.iter().map(|row| (row, stamp)).collect();
     let mut files = vec![results.rows("flip_order", &rows)?];
     if !failures.is_empty() {
         files.push(results.rows("flip_order-failures", &failures)?);
     }
+    files.push(results.text("flip_order-precision.svg", &plot)?);
     Ok(files)
 }
 

@@ -7,8 +7,8 @@
 //! tetrahedra, one seed. A row is the insertion of the rectangle by one method. And points with quadratically many
 //! tetrahedra ([`quadratic`](mod@quadratic)).
 //!
-//! **Columns.** [`Row`], [`fit::Summary`]; the README of this package has their meaning. Seconds are wall clock of the
-//! insertion alone, in one thread.
+//! **Columns.** [`Row`], [`fit::Summary`]; the README of this package has their meaning. Seconds are processor time of
+//! the insertion alone, in one thread.
 //!
 //! **Expected.** Both methods succeed at every size and give the same tetrahedra; asserted at the end. Nothing
 //! is asserted of times.

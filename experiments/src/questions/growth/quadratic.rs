@@ -1,6 +1,6 @@
 //! Flips where there are quadratically many: n points whose Delaunay tetrahedralization has Θ(n²) tetrahedra, all of
-//! which, or a constant part of them, a polygon crosses. The bound of Shewchuk (2003) on constructing a CDT by inserting
-//! polygons, O(n² log n) in three dimensions, is met there but for the logarithm.
+//! which, or a constant part of them, a polygon crosses. The bound of Shewchuk (2003) on constructing a CDT by
+//! inserting polygons, O(n² log n) in three dimensions, is met there but for the logarithm.
 //!
 //! - `moment-curve`: points (t, t², t³). One rectangle parts them in halves; `moment-curve/7` has seven parallel ones,
 //!   which part them in eighths, the middle one first.

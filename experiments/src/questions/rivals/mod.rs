@@ -1,7 +1,7 @@
 //! Beside other programs.
 //!
-//! **Question.** How long does this library take, and how much memory, compared with TetGen (1.5 and 1.6) and HXT on the same inputs,
-//! on the same machine, at the same time?
+//! **Question.** How long does this library take, and how much memory, compared with TetGen (1.5 and 1.6) and HXT on
+//! the same inputs, on the same machine, at the same time?
 //!
 //! **Inputs.** Point sets ([`crate::inputs::points`]), generated models, the scenes of `fig9`, and models of the user's
 //! ([`plan`]). A row is one program on one input; all programs take turns on an input, each in a process of its own.

@@ -1,11 +1,12 @@
-//! `rivals-summary.csv`: each kind of input as a whole, beside each version of TetGen: all inputs on which both succeed,
-//! none selected.
+//! `rivals-summary.csv`: each kind of input as a whole, beside each version of TetGen: all inputs on which both
+//! succeed, none selected.
 
 use super::row::{Row, ratio};
 use crate::measure::sample::{median, rounded};
 use serde::Serialize;
 
-/// One of our methods beside one program on one kind of input. The README of the package has the meaning of the columns.
+/// One of our methods beside one program on one kind of input. The README of the package has the meaning of the
+/// columns.
 #[allow(missing_docs)]
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
