@@ -20,12 +20,14 @@ const PICTURES: [(&str, &str); 3] = [
 /// # Errors
 /// If a file, a column or a row is missing.
 pub fn files(sheets: &Sheets, results: &Path) -> Result<Vec<File>, SheetError> {
-    let mut files = vec![
-        ("flip-order-rates.dat".to_string(), rates(sheets)?),
-        ("price.dat".to_string(), price(sheets)?),
-        ("price-table.tex".to_string(), price_table(sheets)?),
-        ("flip-models-table.tex".to_string(), models(sheets)?),
-    ];
+    let mut files = vec![("flip-order-rates.dat".to_string(), rates(sheets)?)];
+    if sheets.optional("exactness_cost-price-summary").is_some() {
+        files.push(("price.dat".to_string(), price(sheets)?));
+        files.push(("price-table.tex".to_string(), price_table(sheets)?));
+    }
+    if sheets.optional("flip_models-summary").is_some() {
+        files.push(("flip-models-table.tex".to_string(), models(sheets)?));
+    }
     for (name, file) in PICTURES {
         let path = results.join(format!("{name}.svg"));
         let io = |source| SheetError::Io {
