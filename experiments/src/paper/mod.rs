@@ -206,8 +206,6 @@ mod tests {
             "Case",
             "Cost",
             "Growth",
-            "Price",
-            "Modelled",
             "Quadratic",
         ];
         let (mut files, mut commands) = (0, 0);
