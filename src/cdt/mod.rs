@@ -169,6 +169,8 @@ impl Cdt {
         report.steiner_not_doubles = points.count_not_double();
         let (mut subsegments, mut incidence) = recovered?;
         report.steiner_points_on_segment = subsegments.count_exact(&points);
+        // What an exact input needs is done as it always was.
+        let is_rounded = rule.delta > 0.0;
         let try_whole = |points: &DoublePoints, delaunay: &Delaunay, (s, i): (&_, &_), pieces| {
             let plc = EdgeProtectedPlc {
                 points: points.clone(),
@@ -184,7 +186,10 @@ impl Cdt {
                 &mut delaunay,
                 &mut subsegments,
                 &mut incidence,
-                (&try_whole, &mut report.flattening),
+                (
+                    is_rounded.then_some(&try_whole as _),
+                    &mut report.flattening,
+                ),
                 go_on,
             )
         })?;

@@ -13,8 +13,8 @@
 //!
 //! Two more repairs come before these, only where the coordinates are not exact
 //! ([`Precision`](crate::exchange::Precision)):
-//! `weld` moves vertices that are one to the precision to the first of them, and `divide` makes triangles of facets that
-//! are farther from flat. They are asked for by whoever makes a mesh, and are no part of [`repair`].
+//! `weld` moves vertices that are one to the precision to the first of them, and `divide` makes triangles of facets
+//! that are farther from flat. They are asked for by whoever makes a mesh, and are no part of [`repair`].
 //!
 //! In all the others no vertex moves and none is made; all decisions are exact. Where facets cross, or coplanar facets
 //! overlap so that their edges cross where there is no vertex, the input is refused. What comes out has been checked

@@ -121,7 +121,7 @@ pub(crate) type Trial<'a, P> =
     &'a dyn Fn(&P, &Delaunay, (&Subsegments, &Incidence), Pieces) -> Tried;
 
 /// Cuts all polygons that are not flat as far as the edges of the mesh do; the pieces are flat, or can be inserted
-/// whole, or Steiner points are inserted where that is impossible. If it would take too many of those, none is
+/// whole, as `trial` finds out if it is given, or Steiner points are inserted where that is impossible. If it would take too many of those, none is
 /// inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]). `go_on` is told in each
 /// round how many Steiner points there are.
 ///
@@ -133,7 +133,7 @@ pub(crate) fn flatten<P: GrowingStore>(
     delaunay: &mut Delaunay,
     subsegments: &mut Subsegments,
     incidence: &mut Incidence,
-    (trial, counts): (Trial<P>, &mut FlatteningCounts),
+    (trial, counts): (Option<Trial<P>>, &mut FlatteningCounts),
     go_on: &GoOn<'_>,
 ) -> Result<Pieces, Failure> {
     let n = complex.polygons.len();
@@ -163,11 +163,12 @@ pub(crate) fn flatten<P: GrowingStore>(
             return Err(Failure::Stopped);
         }
         let most_trials = (MOST_TRIED / state.count_pieces()).clamp(1, MOST_TRIALS);
-        let refused = if refined.trials < most_trials {
-            refined.trials += 1;
-            state.try_whole(|pieces| trial(points, delaunay, (subsegments, incidence), pieces))
-        } else {
-            state.all_bad()
+        let refused = match trial.filter(|_| refined.trials < most_trials) {
+            Some(trial) => {
+                refined.trials += 1;
+                state.try_whole(|pieces| trial(points, delaunay, (subsegments, incidence), pieces))
+            }
+            None => state.all_bad(),
         };
         if refused.is_empty() {
             break;

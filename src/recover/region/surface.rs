@@ -9,8 +9,8 @@ use super::{Side, Sides};
 use crate::mesh::{Incidence, TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 
-/// The surface of f, whose directed boundary is given, and a crossing tetrahedron wherever it is missing. Every triangle
-/// of it turns left in projection. Linear in the stars of its edges.
+/// The surface of f, whose directed boundary is given, and a crossing tetrahedron wherever it is missing. Every
+/// triangle of it turns left in projection. Linear in the stars of its edges.
 ///
 /// # Errors
 /// Where nothing of f begins at an edge, or it is not clear what does.
