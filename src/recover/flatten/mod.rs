@@ -16,8 +16,9 @@
 //!
 //! # End
 //! Refinement of nearly flat polygons ends in practice for the same reasons as that of segments; it is bounded by
-//! [`MOST_ROUNDS`] and [`MOST_POINTS`], and trials by [`MOST_TRIALS`] and [`MOST_TRIED`]. Beyond those nothing is
-//! inserted, and cells that are not flat are left to the insertion of polygons, which may refuse them.
+//! [`MOST_ROUNDS`] and [`MOST_POINTS`]. Beyond those nothing is inserted, and cells that are not flat are left to the
+//! insertion of polygons, which may refuse them. Trials are bounded by [`MOST_TRIALS`] and [`MOST_TRIED`], and end
+//! where one refuses more than half as many pieces as the one before: then Steiner points are better.
 
 mod cells;
 mod counts;
@@ -158,15 +159,22 @@ pub(crate) fn flatten<P: GrowingStore>(
     let saved = (delaunay.clone(), subsegments.clone(), incidence.clone());
     state.polygons_at = Some(state.polygons_at(subsegments, before));
     let mut refined = FlatteningCounts::default();
+    // How many pieces the last trial refused, and whether that was at most half as many as the one before. A trial
+    // takes as long as the insertion of all polygons.
+    let (mut last, mut worthwhile) = (usize::MAX, true);
     while !state.bad.is_empty() {
         if !go_on(points.len() - subsegments.first_steiner()) {
             return Err(Failure::Stopped);
         }
         let most_trials = (MOST_TRIED / state.count_pieces()).clamp(1, MOST_TRIALS);
-        let refused = match trial.filter(|_| refined.trials < most_trials) {
+        let refused = match trial.filter(|_| worthwhile && refined.trials < most_trials) {
             Some(trial) => {
                 refined.trials += 1;
-                state.try_whole(|pieces| trial(points, delaunay, (subsegments, incidence), pieces))
+                let refused = state
+                    .try_whole(|pieces| trial(points, delaunay, (subsegments, incidence), pieces));
+                worthwhile = 2 * refused.len() <= last;
+                last = refused.len();
+                refused
             }
             None => state.all_bad(),
         };
