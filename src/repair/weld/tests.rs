@@ -1,3 +1,4 @@
+use super::surface::sides;
 use super::*;
 use crate::exchange::Facet;
 use proptest::prelude::*;
