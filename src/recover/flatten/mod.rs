@@ -122,9 +122,9 @@ pub(crate) type Trial<'a, P> =
     &'a dyn Fn(&P, &Delaunay, (&Subsegments, &Incidence), Pieces) -> Tried;
 
 /// Cuts all polygons that are not flat as far as the edges of the mesh do; the pieces are flat, or can be inserted
-/// whole, as `trial` finds out if it is given, or Steiner points are inserted where that is impossible. If it would take too many of those, none is
-/// inserted, and the polygons in question are left whole ([`FlatteningCounts::left_whole`]). `go_on` is told in each
-/// round how many Steiner points there are.
+/// whole, as `trial` finds out if it is given, or Steiner points are inserted where that is impossible. If it would
+/// take too many of those, none is inserted, and the polygons in question are left whole
+/// ([`FlatteningCounts::left_whole`]). `go_on` is told in each round how many Steiner points there are.
 ///
 /// # Errors
 /// [`Failure::Stopped`] if `go_on` says so.
