@@ -164,7 +164,7 @@ proptest! {
         for (p, e) in plc.vertices.iter_mut().zip(&noise) {
             *p = [0, 1, 2].map(|k| p[k] + scale * DELTA * e[k]);
         }
-        let (before, open) = euler(&plc);
+        let (_, open) = euler(&plc);
         let welding = Welding::of(&plc, DELTA);
         for cluster in &welding.welded {
             for v in cluster {
@@ -175,9 +175,9 @@ proptest! {
         let after = welding.plc.as_ref().unwrap_or(&plc);
         let (characteristic, left) = euler(after);
         prop_assert!(left <= open);
+        // Beyond that, holes may be left where the cut was, so that the characteristic tells nothing.
         if scale < 0.99 {
             prop_assert_eq!((characteristic, left), (2, 0));
         }
-        prop_assert!(characteristic >= before.min(0) && characteristic <= 2);
     }
 }
