@@ -84,12 +84,12 @@ fn prepared(
     of_model.polygons = report.polygons;
     of_model.steiner_points = report.steiner_points;
     of_model.regions = counts.regions;
-    of_model.not_flat = reference.not_flat();
+    of_model.not_flat = counts.regions - reference.flat();
     of_model.crossing_tets = counts.crossing_tets;
     of_model.largest_region = counts.largest_region;
     // Of polygons that are not flat nothing is proved.
     let agrees = cavities.is_ok() && tets(&by_cavities) == tets(&by_flips);
-    of_model.agrees = (reference.not_flat() == 0).then_some(agrees);
+    of_model.agrees = (of_model.not_flat == 0).then_some(agrees);
     of_model.outcome = outcome::OK;
     Ok((cdt, reference))
 }

@@ -39,14 +39,14 @@ struct Known {
 #[derive(Default)]
 pub struct Reference {
     known: RefCell<HashMap<Tets, Known>>,
-    not_flat: RefCell<u64>,
+    flat: RefCell<u64>,
 }
 
 impl Reference {
-    /// How many regions were of polygons that are not exactly flat: no order is proved to succeed there, and none is
-    /// tried.
-    pub fn not_flat(&self) -> u64 {
-        *self.not_flat.borrow()
+    /// How many regions were of polygons that are exactly flat. No order is proved to succeed in others, and none is
+    /// tried there.
+    pub fn flat(&self) -> u64 {
+        *self.flat.borrow()
     }
 }
 
@@ -68,9 +68,9 @@ impl<P: PointStore> FlipRegion<P> for Reference {
         _: Option<&mut dyn FlipObserver>,
     ) -> Flipped {
         if !sides.flat {
-            *self.not_flat.borrow_mut() += 1;
             return FlipOrder::FILTERED.insert(mesh, sides, region, scratch, None);
         }
+        *self.flat.borrow_mut() += 1;
         let before = vertices(mesh, &region.tets);
         let mut trace = Trace::default();
         trace.begin(0, sides.frame, &before);
