@@ -1,44 +1,23 @@
 //! Polygon insertion by flips in one region, with a look at the result where the order of the flips is not exact.
 
-use super::cover::count_shims;
 use super::flip_result::{FlipResult, RegionFailure};
-use super::{Current, PolygonInsertion, not_flat};
-use crate::error::{Failure, GaveUp, NotFlatReason};
+use super::{Current, PolygonInsertion};
+use crate::error::{Failure, GaveUp};
 use crate::mesh::VertexId;
 use crate::predicate::PointStore;
 use crate::recover::flips::{FlipObserver, FlipOutcome, FlipRegion, polygon_faces};
-use crate::recover::region::{Region, Sides, region_as_plc};
+use crate::recover::region::{Region, region_as_plc};
 use crate::recover::subpolygons::{Face, face};
 
 impl<P: PointStore> PolygonInsertion<'_, P> {
-    /// Flips in one region; flips displace no polygons. A polygon that is not flat is tried from both sides.
+    /// Flips in one region of f, which is flat; flips displace no polygons. If they fail the region is restored.
     pub(super) fn by_flips(
         &mut self,
         f: &Current<P>,
         region: &Region,
         flips: &dyn FlipRegion<P>,
     ) -> Result<Vec<usize>, Failure> {
-        let mut result = self.flip(f, &f.sides, region, flips);
-        if !f.sides.flat
-            && let Err((_, region)) = &result
-        {
-            result = self.flip(f, &f.sides.reversed(), region, flips);
-        }
-        match result {
-            Ok(()) => Ok(Vec::new()),
-            Err((failure, region)) => Err(self.flips_failed(f, &region, failure)),
-        }
-    }
-
-    /// Flips in one region, with the sides seen in one orientation. If they fail the region is restored, and given
-    /// back.
-    fn flip(
-        &mut self,
-        f: &Current<P>,
-        sides: &Sides<P>,
-        region: &Region,
-        flips: &dyn FlipRegion<P>,
-    ) -> Result<(), (RegionFailure, Region)> {
+        let sides = &f.sides;
         let mesh = &self.cdt.mesh;
         let before: Vec<[VertexId; 4]> = region.tets.iter().map(|&t| mesh.vertices(t)).collect();
         if let Some(observer) = &mut self.observer {
@@ -71,9 +50,8 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             FlipOutcome::Done => Ok(()),
         };
         // Exact times on a flat polygon of a valid PLC make the CDT, by proof; what is wrong with an invalid one is
-        // found and named by the next search. Rounded times can leave triangles that are not locally Delaunay, and so
-        // can a polygon that is not flat (paper, end of §3.2).
-        let verdict = if sides.flat && flips.is_exact() {
+        // found and named by the next search. Rounded times can leave triangles that are not locally Delaunay.
+        let verdict = if flips.is_exact() {
             verdict
         } else {
             let on_f: Vec<Face> = faces.iter().map(|&t| face(t)).collect();
@@ -85,18 +63,14 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
             let mut tets = self.cdt.mesh.replace(&tets, &before);
             self.cdt.created(&tets);
             tets.sort_unstable();
-            return Err((failure, Region::of(tets)));
+            return Err(self.flips_failed(f, &Region::of(tets), failure));
         }
-        self.counts.shims += count_shims(&self.cdt.mesh, sides, &tets);
         self.cover(f, &faces);
-        Ok(())
+        Ok(Vec::new())
     }
 
     /// The failure of flips, with the region, which has been restored, as a PLC.
     fn flips_failed(&self, f: &Current<P>, region: &Region, failure: RegionFailure) -> Failure {
-        if !f.sides.flat {
-            return not_flat(f.polygon, NotFlatReason::Incompatible);
-        }
         let facets = f.polygon.facets.clone();
         let (mesh, subpolygons) = (&self.cdt.mesh, &self.cdt.subpolygons);
         let region = Box::new(region_as_plc(mesh, &f.sides, region, subpolygons));

@@ -1,11 +1,10 @@
 //! Polygon insertion by retriangulating R as a whole: cavities or gift wrapping, and what comes after a refusal.
 //!
 //! Cavity retriangulation, where it is chosen, is tried first, and gift wrapping of the two original cavities where it
-//! is refused. Gift wrapping is refused only if f is not flat or the PLC not valid; then the caller flips. It also
+//! is refused. f is flat. Gift wrapping is refused only if the PLC is not valid; then the caller flips. It also
 //! flips in place of a fallback on gift wrapping, whose time is quadratic, in regions of more than [`MOST_WRAPPED`]
 //! tetrahedra.
 
-use super::cover::count_shims;
 use super::{Current, PolygonInsertion};
 use crate::clock::Task;
 use crate::predicate::PointStore;
@@ -26,14 +25,8 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         f: &Current<P>,
         region: &Region,
     ) -> Option<Vec<usize>> {
-        // Where f is not flat, the two orientations differ.
-        let reversed = (!f.sides.flat).then(|| f.sides.reversed());
-        let mut orientations = std::iter::once(&f.sides).chain(&reversed);
         if self.insertion == Insertion::Cavity {
-            let found = orientations
-                .clone()
-                .find_map(|sides| self.by_cavity(sides, region, f.may_displace));
-            if let Some(r) = found {
+            if let Some(r) = self.by_cavity(&f.sides, region, f.may_displace) {
                 return Some(self.put_into_mesh(f, &r));
             }
             self.counts.cavity_fallbacks += 1;
@@ -42,7 +35,7 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         let found = if is_fallback && region.tets.len() > MOST_WRAPPED {
             None
         } else {
-            orientations.find_map(|sides| self.by_gift_wrapping(sides, region))
+            self.by_gift_wrapping(&f.sides, region)
         };
         if found.is_none() {
             self.counts.flip_fallbacks += 1;
@@ -93,7 +86,6 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         self.cdt.scratch.cavity.clock.end(Task::Merging);
         self.counts.swallowed += r.swallowed as u64;
         self.counts.displaced += r.displaced.len() as u64;
-        self.counts.shims += count_shims(&self.cdt.mesh, &f.sides, &created);
         self.cover(f, &r.faces);
         let displaced = r.displaced.iter();
         let polygons = displaced.filter_map(|t| self.cdt.subpolygons.remove(t));

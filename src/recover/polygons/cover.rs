@@ -1,8 +1,7 @@
 //! Which triangles a polygon is made of, during its insertion and at its end.
 
-use super::{Current, PolygonInsertion, not_flat};
+use super::{Current, PolygonInsertion};
 use crate::delaunay::is_locally_delaunay;
-use crate::error::{Failure, NotFlatReason};
 use crate::mesh::{TetId, TetMesh, VertexId};
 use crate::predicate::PointStore;
 use crate::recover::region::{Side, Sides};
@@ -24,28 +23,13 @@ impl<P: PointStore> PolygonInsertion<'_, P> {
         self.cdt.subpolygons.extend(on_f);
     }
 
-    /// Makes `faces`, seen from the left side of f by the last search, the subpolygons of f. Where f is flat only to
-    /// rounding, insertions may have noted triangles that are not in them, next to f's border; those must be locally
-    /// Delaunay then, and f's own must cover it simply.
-    pub(super) fn settle(
-        &mut self,
-        f: &Current<P>,
-        faces: &[[VertexId; 3]],
-    ) -> Result<(), Failure> {
-        let mut spurious: FxHashSet<Face> = std::mem::take(&mut self.noted).into_iter().collect();
-        for &t in faces {
-            spurious.remove(&face(t));
-            self.cdt.subpolygons.insert(face(t), f.f as u32);
+    /// Makes `faces`, found by the last search, the subpolygons of f, and no others that insertions have noted.
+    pub(super) fn settle(&mut self, f: &Current<P>, faces: &[[VertexId; 3]]) {
+        for t in std::mem::take(&mut self.noted) {
+            self.cdt.subpolygons.remove(&t);
         }
-        for t in &spurious {
-            self.cdt.subpolygons.remove(t);
-        }
-        let is_delaunay = |&t: &Face| self.is_gone_or_locally_delaunay(t);
-        let is_right = || covers_simply(faces, &f.boundary) && spurious.iter().all(is_delaunay);
-        if !f.sides.flat && !is_right() {
-            return Err(not_flat(f.polygon, NotFlatReason::Incompatible));
-        }
-        Ok(())
+        let on_f = faces.iter().map(|&t| (face(t), f.f as u32));
+        self.cdt.subpolygons.extend(on_f);
     }
 
     /// Whether a triangle is gone from the mesh or is locally Delaunay in it.
@@ -79,11 +63,8 @@ pub(super) fn covers_simply(faces: &[[VertexId; 3]], boundary: &[[VertexId; 2]])
     simple && open.is_empty()
 }
 
-/// How many tetrahedra have all their vertices on f: none if that is flat.
+/// How many tetrahedra have all their vertices on f, which is flat only to rounding.
 pub(super) fn count_shims<P: PointStore>(mesh: &TetMesh, sides: &Sides<P>, tets: &[TetId]) -> u64 {
-    if sides.flat {
-        return 0;
-    }
     let is_shim = |&&t: &&TetId| mesh.vertices(t).iter().all(|&v| sides.of(v) == Side::On);
     tets.iter().filter(is_shim).count() as u64
 }

@@ -56,9 +56,6 @@ struct Current<'a, P> {
     may_displace: bool,
 }
 
-/// How often a polygon that is flat only to rounding is searched for missing regions.
-const ROUNDS_IF_NOT_FLAT: usize = 8;
-
 impl<'a, P: PointStore> PolygonInsertion<'a, P> {
     /// Nothing is inserted yet.
     pub fn new(
@@ -185,17 +182,15 @@ impl<'a, P: PointStore> PolygonInsertion<'a, P> {
         }
     }
 
-    /// Searches f for missing regions and inserts them, until there are none (paper §3.3). Returns the polygons that
+    /// Searches f, which is flat, for missing regions and inserts them, until there are none (paper §3.3). Returns the polygons that
     /// this displaced.
     fn insert_missing_regions(&mut self, f: &Current<P>) -> Result<Vec<usize>, Failure> {
         let mut displaced: Vec<usize> = Vec::new();
         let mut covering = self.search(f)?;
         if f.may_displace {
             self.counts.already_present += u64::from(covering.seeds.is_empty());
-            self.counts.not_flat += u64::from(!f.sides.flat);
         }
         // A region may be hidden behind another one, from which segments inside f part it, until that one is inserted.
-        let mut rounds = 0;
         while !covering.seeds.is_empty() {
             self.note(f, &self.facets(&covering));
             let mut inserted = false;
@@ -207,14 +202,13 @@ impl<'a, P: PointStore> PolygonInsertion<'a, P> {
                     inserted = true;
                 }
             }
-            // Each round covers more of a flat f. If f is not flat nothing says so.
-            rounds += 1;
-            if !inserted || (!f.sides.flat && rounds == ROUNDS_IF_NOT_FLAT) {
+            // Each round covers more of f.
+            if !inserted {
                 return Err(not_flat(f.polygon, NotFlatReason::AmbiguousSide));
             }
             covering = self.search(f)?;
         }
-        self.settle(f, &self.facets(&covering))?;
+        self.settle(f, &self.facets(&covering));
         displaced.sort_unstable();
         displaced.dedup();
         Ok(displaced)
@@ -227,7 +221,7 @@ impl<'a, P: PointStore> PolygonInsertion<'a, P> {
         let found = missing::search(mesh, incidence, &f.sides, &f.boundary, &is_of_f);
         found.map_err(|obstacle| match obstacle {
             // Otherwise the vertex may be beyond an edge of f with Steiner points that are off the plane.
-            Obstacle::Stray(vertex) if f.sides.flat && !self.is_on_segment(vertex) => {
+            Obstacle::Stray(vertex) if !self.is_on_segment(vertex) => {
                 let facets = f.polygon.facets.clone();
                 InvalidPlc::VertexOnPolygon { facets, vertex }.into()
             }
