@@ -14,7 +14,7 @@
 //! - [`Motion`] is what an exact order asks of the geometry: N, D and the e_i of an event in numbers of some type.
 //! - [`ExactOrder`] compares exact quotients; [`FilteredOrder`] compares float enclosures, and exact quotients where
 //!   those overlap; [`RoundedOrder`] compares rounded quotients, as the paper does.
-//! - [`Middles`], [`Unperturbed`] and [`Unenclosed`] are the filtered order without one of its parts.
+//! - [`AblatedFilter`] is the filtered order without one of its parts.
 //!
 //! Nothing here knows of tetrahedra, of dimensions, or of what moves. The insertion of polygons
 //! ([`crate::recover::flips`]) is one user.
@@ -31,7 +31,7 @@ mod rounded;
 #[cfg(test)]
 mod sorting_by_swaps;
 
-pub use ablated::{Middles, Unenclosed, Unperturbed};
+pub use ablated::AblatedFilter;
 pub use bounded::Bounded;
 pub use enclosure::Enclosure;
 pub use exact::{ExactOrder, Motion};

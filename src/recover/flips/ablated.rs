@@ -5,51 +5,20 @@
 //! of §3.3 would look outside of the copy. So there are none here, as in exact order: the insertion fails at the first
 //! such flip ([`FlipOutcome::Impossible`](super::FlipOutcome::Impossible)), and the region is restored.
 
-use super::event::{Event, Signs};
-use super::filter::{Filter, Rising};
+use super::event::Event;
+use super::filtered::{AblatedOrder, Ablation, Filtered, FilteredTimes};
 use super::motion::{Circuits, PolygonMotion};
 use super::numbers::FlipNumbers;
-use super::time::{FlipTime, FlipTimes, Undecided};
-use crate::kinetic::{
-    Bounded, Enclosure, FilteredOrder, FilteredTime, InQuanta, Middles, TimeOrder, Unenclosed,
-    Unperturbed,
-};
-use crate::mesh::VertexId;
+use super::time::Undecided;
+use crate::kinetic::{AblatedFilter, Bounded, Enclosure, FilteredTime, InQuanta, TimeOrder, Timed};
 use crate::number::{Dyadic, Number};
 use crate::predicate::PointStore;
+use std::cmp::Ordering;
 use std::marker::PhantomData;
 
-type Filtered<'a, P> = FilteredOrder<Circuits<'a, P, Dyadic>, 5>;
-
-/// Which part is left out.
-pub trait Ablation {
-    /// Without exact quotients of 64-bit integers, where coordinates lie on a grid: all are of numbers of any size.
-    const INTEGERS: bool;
-
-    /// The order that is left.
-    type Order<'a, P: PointStore + 'a>: AblatedOrder<'a, P>;
-}
-
-/// An order of what is left.
-pub trait AblatedOrder<'a, P: PointStore>: TimeOrder<Event = Event> {
-    /// Over the filtered order.
-    fn new(filtered: Filtered<'a, P>) -> Self;
-
-    /// The time of an event with certainly positive D, given N, D and, if they are certain, N, D and the coefficients
-    /// in quanta.
-    fn certain(
-        &mut self,
-        quotient: [&Bounded; 2],
-        typical: impl FnOnce() -> f64,
-        integers: impl FnOnce() -> Option<InQuanta<5>>,
-    ) -> (Self::Key, Self::Time);
-
-    /// That of an event of which floats know nothing; `None` if D ≤ 0.
-    fn unknown(&mut self, event: &Event) -> Option<(Self::Key, Self::Time)>;
-
-    /// What it did not decide by floats.
-    fn undecided(&self) -> Undecided;
-}
+/// The order of flip times with or without enclosures and perturbation.
+type Rest<'a, P, const ENCLOSED: bool, const PERTURBED: bool> =
+    AblatedFilter<Circuits<'a, P, Dyadic>, 5, ENCLOSED, PERTURBED>;
 
 /// Nothing is exact about times but the sign of D: rounded quotients, in the order of their arrival where they are
 /// equal.
@@ -65,7 +34,7 @@ pub struct NoPerturbation;
 
 impl Ablation for NoPerturbation {
     const INTEGERS: bool = true;
-    type Order<'a, P: PointStore + 'a> = Unperturbed<Circuits<'a, P, Dyadic>, 5>;
+    type Order<'a, P: PointStore + 'a> = Rest<'a, P, true, false>;
 }
 
 /// No quotients of 64-bit integers.
@@ -81,7 +50,7 @@ pub struct NoEnclosures;
 
 impl Ablation for NoEnclosures {
     const INTEGERS: bool = true;
-    type Order<'a, P: PointStore + 'a> = Unenclosed<Circuits<'a, P, Dyadic>, 5>;
+    type Order<'a, P: PointStore + 'a> = Rest<'a, P, false, true>;
 }
 
 /// The number type of an ablation.
@@ -94,158 +63,44 @@ impl<A> Default for AblatedNumbers<A> {
 }
 
 impl<A: Ablation> FlipNumbers for AblatedNumbers<A> {
-    type Times<'a, P: PointStore + 'a> = AblatedTimes<'a, P, A>;
+    type Times<'a, P: PointStore + 'a> = FilteredTimes<'a, P, A>;
 
     const IN_COPY: bool = true;
 
     fn times<'a, P: PointStore>(&self, motion: &'a PolygonMotion<'a, P>) -> Self::Times<'a, P> {
-        AblatedTimes {
-            points: motion.points,
-            filter: Filter::new(motion),
-            order: AblatedOrder::new(FilteredOrder::new(Circuits::new(motion))),
-        }
+        FilteredTimes::of_parts(motion)
     }
 }
 
-/// Flip times of an ablation.
-pub struct AblatedTimes<'a, P: PointStore + 'a, A: Ablation> {
-    points: &'a P,
-    filter: Filter<'a, P>,
-    order: A::Order<'a, P>,
-}
-
-impl<'a, P: PointStore, A: Ablation> AblatedTimes<'a, P, A> {
-    #[inline(always)]
-    fn in_quanta(
-        filter: &Filter<'a, P>,
-        points: &P,
-        rising: &Rising,
-        n: &Bounded,
-        circuit: [VertexId; 5],
-    ) -> Option<InQuanta<5>> {
-        if !A::INTEGERS {
-            return None;
-        }
-        let (quotient, c) = filter.integers(rising, n)?;
-        let terms = [0, 1, 2, 3, 4].map(|i| (points.identity(circuit[i]), c[i]));
-        Some(InQuanta::new(quotient, terms))
+impl<'a, P: PointStore, const ENCLOSED: bool, const PERTURBED: bool> AblatedOrder<'a, P>
+    for Rest<'a, P, ENCLOSED, PERTURBED>
+{
+    fn new(filtered: Filtered<'a, P>) -> Self {
+        AblatedFilter(filtered)
     }
-}
-
-impl<'a, P: PointStore, A: Ablation> FlipTimes for AblatedTimes<'a, P, A> {
-    type Order = A::Order<'a, P>;
-
-    // No patches.
-    const EXACT: bool = true;
 
     #[inline(always)]
-    fn order(&mut self) -> &mut Self::Order {
-        &mut self.order
-    }
-
-    #[inline]
-    fn prefetch(&self, v: VertexId) {
-        self.filter.prefetch(v);
-    }
-
-    #[inline]
-    fn time_across(
+    fn certain(
         &mut self,
-        _: [VertexId; 4],
-        circuit: [VertexId; 5],
-        is_wanted: impl FnOnce(Signs, bool) -> bool,
-    ) -> Option<FlipTime<Self::Order>> {
-        let mut rising = self.filter.evaluate(circuit);
-        let may_rise = self.filter.may_rise(&mut rising);
-        let signs = self.filter.signs(&rising);
-        if !is_wanted(signs, may_rise) {
-            return None;
-        }
-        if !rising.d.is_positive() {
-            let (key, time) = self.order.unknown(&Event::of_circuit(circuit))?;
-            return Some(FlipTime { key, time, signs });
-        }
-        let n = self.filter.resting(&rising);
-        let (filter, points) = (&self.filter, self.points);
-        let (key, time) = self.order.certain(
-            [&n, &rising.d],
-            || filter.typical_time(&rising),
-            || Self::in_quanta(filter, points, &rising, &n, circuit),
-        );
-        Some(FlipTime { key, time, signs })
+        quotient: [&Bounded; 2],
+        typical: impl FnOnce() -> f64,
+        integers: impl FnOnce() -> Option<InQuanta<5>>,
+    ) -> (Enclosure, FilteredTime) {
+        self.0.certain(quotient, typical, integers)
+    }
+
+    fn unknown(&mut self, event: &Event) -> Option<(Enclosure, FilteredTime)> {
+        AblatedOrder::unknown(&mut self.0, event)
     }
 
     fn undecided(&self) -> Undecided {
-        self.order.undecided()
+        self.0.undecided()
     }
 }
 
-fn undecided<P: PointStore>(order: &Filtered<P>) -> Undecided {
-    Undecided {
-        compared_exactly: order.compared_exactly,
-        ties: order.ties(),
-        one_circuit: order.one_circuit(),
-        big_quotients: order.exact.quotients,
-        overflows: 0,
-    }
-}
-
-#[inline(always)]
-fn certain<P: PointStore>(
-    order: &mut Filtered<P>,
-    quotient: [&Bounded; 2],
-    typical: impl FnOnce() -> f64,
-    integers: impl FnOnce() -> Option<InQuanta<5>>,
-) -> (Enclosure, FilteredTime) {
-    let time = integers().map_or_else(FilteredTime::default, |integers| {
-        order.in_integers(integers)
-    });
-    (order.key(quotient, typical), time)
-}
-
-/// Orders with enclosures for keys: where the filtered order is in them.
-macro_rules! over_filtered {
-    ($($order:ty: $inner:ident => $filtered:expr, $new:expr;)*) => {$(
-        impl<'a, P: PointStore> AblatedOrder<'a, P> for $order {
-            fn new(filtered: Filtered<'a, P>) -> Self {
-                $new(filtered)
-            }
-
-            #[inline(always)]
-            fn certain(
-                &mut self,
-                quotient: [&Bounded; 2],
-                typical: impl FnOnce() -> f64,
-                integers: impl FnOnce() -> Option<InQuanta<5>>,
-            ) -> (Enclosure, FilteredTime) {
-                let $inner = self;
-                certain(&mut $filtered, quotient, typical, integers)
-            }
-
-            fn unknown(&mut self, event: &Event) -> Option<(Enclosure, FilteredTime)> {
-                let $inner = self;
-                $filtered.unknown(event)
-            }
-
-            fn undecided(&self) -> Undecided {
-                let $inner = self;
-                undecided(&$filtered)
-            }
-        }
-    )*};
-}
-
-over_filtered! {
-    Filtered<'a, P>: order => *order, |filtered| filtered;
-    Unperturbed<Circuits<'a, P, Dyadic>, 5>: order => order.0, Unperturbed;
-    Unenclosed<Circuits<'a, P, Dyadic>, 5>: order => order.0, Unenclosed;
-}
-
-/// [`Middles`], and exact numbers for the sign of D.
-pub struct RoundedOnly<'a, P> {
-    middles: Middles<Event>,
-    filtered: Filtered<'a, P>,
-}
+/// Rounded quotients, as enclosures have them in their middles, and nothing else: equal ones come in the order of their
+/// arrival. Exact numbers are for the sign of D alone.
+pub struct RoundedOnly<'a, P>(Filtered<'a, P>);
 
 impl<'a, P: PointStore> TimeOrder for RoundedOnly<'a, P> {
     type Event = Event;
@@ -254,25 +109,22 @@ impl<'a, P: PointStore> TimeOrder for RoundedOnly<'a, P> {
 
     #[inline]
     fn about(key: f64) -> Option<f64> {
-        Middles::<Event>::about(key)
+        Some(key)
     }
 
     #[inline]
-    fn compare_keys(a: f64, b: f64) -> Option<std::cmp::Ordering> {
-        Middles::<Event>::compare_keys(a, b)
+    fn compare_keys(a: f64, b: f64) -> Option<Ordering> {
+        a.partial_cmp(&b).filter(|o| o.is_ne())
     }
 
-    fn compare(&mut self, a: (&Event, &()), b: (&Event, &())) -> std::cmp::Ordering {
-        self.middles.compare(a, b)
+    fn compare(&mut self, _: Timed<Event, ()>, _: Timed<Event, ()>) -> Ordering {
+        Ordering::Equal
     }
 }
 
 impl<'a, P: PointStore> AblatedOrder<'a, P> for RoundedOnly<'a, P> {
     fn new(filtered: Filtered<'a, P>) -> Self {
-        RoundedOnly {
-            middles: Middles::default(),
-            filtered,
-        }
+        RoundedOnly(filtered)
     }
 
     #[inline(always)]
@@ -286,13 +138,13 @@ impl<'a, P: PointStore> AblatedOrder<'a, P> for RoundedOnly<'a, P> {
     }
 
     fn unknown(&mut self, event: &Event) -> Option<(f64, ())> {
-        let quotient = self.filtered.exact.quotient(event)?;
+        let quotient = self.0.exact.quotient(event)?;
         let (n, d) = quotient.parts();
         Some((-n.to_f64() / d.to_f64(), ()))
     }
 
     fn undecided(&self) -> Undecided {
-        undecided(&self.filtered)
+        self.0.undecided()
     }
 }
 
@@ -301,6 +153,7 @@ mod tests {
     use super::*;
     use crate::cdt::Cdt;
     use crate::exchange::{Facet, Plc};
+    use crate::mesh::VertexId;
     use crate::predicate::DoublePoints;
     use crate::recover::flips::{FilteredNumbers, FlipCounts, FlipRegion};
     use crate::report::Report;

@@ -4,31 +4,116 @@ use super::event::{Event, Signs};
 use super::filter::Filter;
 use super::motion::{Circuits, PolygonMotion};
 use super::time::{FlipTime, FlipTimes, Undecided};
-use crate::kinetic::{FilteredOrder, FilteredTime, InQuanta};
+use crate::kinetic::{Bounded, Enclosure, FilteredOrder, FilteredTime, InQuanta, TimeOrder};
 use crate::mesh::VertexId;
 use crate::number::Dyadic;
 use crate::predicate::PointStore;
 
-/// Flip times whose order is exact and is mostly decided by floats.
-pub struct FilteredTimes<'a, P> {
+/// Flip times whose order is exact and is mostly decided by floats; in experiments, what is left of that without one of
+/// its parts.
+pub struct FilteredTimes<'a, P: PointStore + 'a, A: Ablation = NoAblation> {
     points: &'a P,
     filter: Filter<'a, P>,
-    order: FilteredOrder<Circuits<'a, P, Dyadic>, 5>,
+    order: A::Order<'a, P>,
+}
+
+/// The filtered order of flip times.
+pub(super) type Filtered<'a, P> = FilteredOrder<Circuits<'a, P, Dyadic>, 5>;
+
+/// Which part of the filtered order is left out: none, or one for measuring what it costs (`ablated`).
+pub trait Ablation {
+    /// Without exact quotients of 64-bit integers, where coordinates lie on a grid: all are of numbers of any size.
+    const INTEGERS: bool;
+
+    /// The order that is left.
+    type Order<'a, P: PointStore + 'a>: AblatedOrder<'a, P>;
+}
+
+/// An order of what is left.
+pub trait AblatedOrder<'a, P: PointStore>: TimeOrder<Event = Event> {
+    /// Over the filtered order.
+    fn new(filtered: Filtered<'a, P>) -> Self;
+
+    /// The time of an event with certainly positive D, given N, D and, if they are certain, N, D and the coefficients
+    /// in quanta.
+    fn certain(
+        &mut self,
+        quotient: [&Bounded; 2],
+        typical: impl FnOnce() -> f64,
+        integers: impl FnOnce() -> Option<InQuanta<5>>,
+    ) -> (Self::Key, Self::Time);
+
+    /// That of an event of which floats know nothing; `None` if D ≤ 0.
+    fn unknown(&mut self, event: &Event) -> Option<(Self::Key, Self::Time)>;
+
+    /// What it did not decide by floats.
+    fn undecided(&self) -> Undecided;
+}
+
+/// Nothing is left out.
+pub struct NoAblation;
+
+impl Ablation for NoAblation {
+    const INTEGERS: bool = true;
+    type Order<'a, P: PointStore + 'a> = Filtered<'a, P>;
+}
+
+impl<'a, P: PointStore> AblatedOrder<'a, P> for Filtered<'a, P> {
+    fn new(filtered: Filtered<'a, P>) -> Self {
+        filtered
+    }
+
+    #[inline(always)]
+    fn certain(
+        &mut self,
+        quotient: [&Bounded; 2],
+        typical: impl FnOnce() -> f64,
+        integers: impl FnOnce() -> Option<InQuanta<5>>,
+    ) -> (Enclosure, FilteredTime) {
+        let time = match integers() {
+            Some(integers) => self.in_integers(integers),
+            None => FilteredTime::default(),
+        };
+        (self.key(quotient, typical), time)
+    }
+
+    #[inline]
+    fn unknown(&mut self, event: &Event) -> Option<(Enclosure, FilteredTime)> {
+        FilteredOrder::unknown(self, event)
+    }
+
+    fn undecided(&self) -> Undecided {
+        Undecided {
+            compared_exactly: self.compared_exactly,
+            ties: self.ties(),
+            one_circuit: self.one_circuit(),
+            big_quotients: self.exact.quotients,
+            overflows: 0,
+        }
+    }
 }
 
 impl<'a, P: PointStore> FilteredTimes<'a, P> {
     /// For the given motion.
     pub fn new(motion: &'a PolygonMotion<'a, P>) -> Self {
+        FilteredTimes::of_parts(motion)
+    }
+}
+
+impl<'a, P: PointStore, A: Ablation> FilteredTimes<'a, P, A> {
+    /// For the given motion, without what is left out.
+    pub(super) fn of_parts(motion: &'a PolygonMotion<'a, P>) -> Self {
         FilteredTimes {
             points: motion.points,
             filter: Filter::new(motion),
-            order: FilteredOrder::new(Circuits::new(motion)),
+            order: AblatedOrder::new(FilteredOrder::new(Circuits::new(motion))),
         }
     }
 }
 
-impl<'a, P: PointStore> FlipTimes for FilteredTimes<'a, P> {
-    type Order = FilteredOrder<Circuits<'a, P, Dyadic>, 5>;
+impl<'a, P: PointStore, A: Ablation> FlipTimes for FilteredTimes<'a, P, A> {
+    type Order = A::Order<'a, P>;
+    // Orders that are not exact have no patches either: see `ablated`.
     const EXACT: bool = true;
 
     #[inline(always)]
@@ -59,29 +144,22 @@ impl<'a, P: PointStore> FlipTimes for FilteredTimes<'a, P> {
             return Some(FlipTime { key, time, signs });
         }
         let n = self.filter.resting(&rising);
-        let time = match self.filter.integers(&rising, &n) {
-            Some((quotient, c)) => {
-                let identity = |i: usize| self.points.identity(circuit[i]);
-                let terms = [0, 1, 2, 3, 4].map(|i| (identity(i), c[i]));
-                self.order.in_integers(InQuanta::new(quotient, terms))
+        let (filter, points) = (&self.filter, self.points);
+        let in_quanta = || {
+            if !A::INTEGERS {
+                return None;
             }
-            None => FilteredTime::default(),
+            let (quotient, c) = filter.integers(&rising, &n)?;
+            let terms = [0, 1, 2, 3, 4].map(|i| (points.identity(circuit[i]), c[i]));
+            Some(InQuanta::new(quotient, terms))
         };
-        let filter = &self.filter;
-        let key = self
-            .order
-            .key([&n, &rising.d], || filter.typical_time(&rising));
+        let typical = || filter.typical_time(&rising);
+        let (key, time) = self.order.certain([&n, &rising.d], typical, in_quanta);
         Some(FlipTime { key, time, signs })
     }
 
     fn undecided(&self) -> Undecided {
-        Undecided {
-            compared_exactly: self.order.compared_exactly,
-            ties: self.order.ties(),
-            one_circuit: self.order.one_circuit(),
-            big_quotients: self.order.exact.quotients,
-            overflows: 0,
-        }
+        self.order.undecided()
     }
 }
 
@@ -89,7 +167,6 @@ impl<'a, P: PointStore> FlipTimes for FilteredTimes<'a, P> {
 mod tests {
     use super::super::exact::ExactTimes;
     use super::*;
-    use crate::kinetic::TimeOrder;
     use crate::number::Number;
     use crate::predicate::{DoublePoints, formula};
     use num_rational::BigRational;

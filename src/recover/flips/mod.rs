@@ -29,16 +29,14 @@ mod ties;
 mod time;
 mod wide;
 
-pub use ablated::{
-    AblatedNumbers, Ablation, NoEnclosures, NoIntegers, NoPerturbation, RoundedKeys,
-};
+pub use ablated::{AblatedNumbers, NoEnclosures, NoIntegers, NoPerturbation, RoundedKeys};
 use counts::most_flips;
 pub use counts::{FlipCounts, FlipOutcome};
 pub use deletion::{Blocked, Deleted, FlipDeletion, Kept};
 use event::Facets;
 pub use event::{Event, Signs};
 pub use exact::ExactTimes;
-pub use filtered::FilteredTimes;
+pub use filtered::{AblatedOrder, Ablation, FilteredTimes, NoAblation};
 pub use motion::{LeftVertices, PolygonMotion, VertexNumbers};
 use moves::is_flippable;
 pub use moves::{Flip, FlipKind, flip_of_triangle};
