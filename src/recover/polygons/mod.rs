@@ -182,8 +182,8 @@ impl<'a, P: PointStore> PolygonInsertion<'a, P> {
         }
     }
 
-    /// Searches f, which is flat, for missing regions and inserts them, until there are none (paper §3.3). Returns the polygons that
-    /// this displaced.
+    /// Searches f, which is flat, for missing regions and inserts them, until there are none (paper §3.3). Returns the
+    /// polygons that this displaced.
     fn insert_missing_regions(&mut self, f: &Current<P>) -> Result<Vec<usize>, Failure> {
         let mut displaced: Vec<usize> = Vec::new();
         let mut covering = self.search(f)?;
