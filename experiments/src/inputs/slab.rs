@@ -100,7 +100,7 @@ pub struct OfScene {
 }
 
 impl OfScene {
-    /// A scene, not yet measured.
+    /// A scene before it is measured.
     pub fn new(slab: Slab) -> OfScene {
         let Slab {
             vertices,

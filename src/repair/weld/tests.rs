@@ -1,3 +1,5 @@
+//! Welds close what is closed to rounding, and tear, drift and vanish nothing.
+
 use super::surface::sides;
 use super::*;
 use crate::exchange::Facet;
